@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The adaptation itself: rounds of refine, simplify, swap, relocate until nothing is left to gain.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_ADAPTATION_DRIVER_H
+#define CGAL_SURFACE_MESH_ADAPTATION_ADAPTATION_DRIVER_H
+
+#include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Refinement.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Relocation.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Simplification.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Swapping.h>
+#include <CGAL/Surface_mesh_adaptation/mesh_statistics.h>
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+template <class Surface, class Execution, class Visitor>
+class Adaptation_driver
+{
+public:
+  Adaptation_driver(const Execution& execution, Surface& surface, Visitor& visitor)
+    : execution_(execution), surface_(surface), visitor_(visitor)
+    , refinement_(execution, surface), simplification_(execution, surface, {}), swapping_(execution, surface, {})
+    , relocation_(execution, surface, {})
+  {}
+
+  /// At most `rounds` rounds.
+  Adaptation_report run(std::size_t rounds)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    report_.initial = mesh_statistics(execution_, surface_);
+    for (round_ = 0; round_ < rounds && !report_.stopped; ++round_) {
+      visitor_.round_begins(round_, rounds);
+      const std::size_t changed = do_round();
+      report_.after_round.push_back(mesh_statistics(execution_, surface_));
+      visitor_.round_done(round_, report_.after_round.back());
+      ++report_.rounds;
+      if (double(changed) < converged_share * double(report_.after_round.back().vertices)) break;
+    }
+    refinement_.compact();
+    report_.final = report_.after_round.empty() ? report_.initial : report_.after_round.back();
+    report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return report_;
+  }
+
+private:
+  /// Returns the number of operations that changed the connectivity.
+  std::size_t do_round()
+  {
+    std::size_t changed = 0;
+    changed += run_kernel("refine", max_refine_sweeps, 0, [&](Sweep_counts& c) {
+      return refinement_.sweep(max_unit_length, c);
+    });
+    changed += run_kernel("simplify", max_simplify_sweeps, sweep_share, [&](Sweep_counts& c) {
+      return simplification_.sweep(c);
+    });
+    changed += run_kernel("swap", max_swap_sweeps, sweep_share, [&](Sweep_counts& c) { return swapping_.sweep(c); });
+    run_kernel("relocate", max_relocate_sweeps, sweep_share, [&](Sweep_counts& c) { return relocation_.sweep(c); });
+    return changed;
+  }
+
+  /// Repeats `sweep` until it applies to at most `share` of the vertices.
+  template <class Sweep>
+  std::size_t run_kernel(const std::string& name, std::size_t max_sweeps, double share, const Sweep& sweep)
+  {
+    if (report_.stopped) return 0;
+    const auto start = std::chrono::steady_clock::now();
+    Sweep_counts counts;
+    for (std::size_t i = 0; i < max_sweeps; ++i)
+      if (double(sweep(counts)) <= share * double(surface_.mesh.number_of_vertices())) break;
+    Kernel_report k;
+    k.kernel = name;
+    k.round = round_;
+    k.sweeps = counts.sweeps;
+    k.candidates = counts.candidates;
+    k.applied = counts.applied;
+    k.deferred = counts.deferred;
+    k.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report_.kernels.push_back(k);
+    visitor_.kernel_done(k);
+    report_.stopped = !visitor_.go_on();
+    return counts.applied;
+  }
+
+  static constexpr std::size_t max_refine_sweeps = 24;   // each halves the edges
+  static constexpr std::size_t max_simplify_sweeps = 12;
+  static constexpr std::size_t max_swap_sweeps = 4;
+  static constexpr std::size_t max_relocate_sweeps = 4;
+  static constexpr double sweep_share = 0.002;           // a sweep that changes less is not worth another
+  static constexpr double converged_share = 0.002;
+
+  const Execution& execution_;
+  Surface& surface_;
+  Visitor& visitor_;
+  Refinement<Surface, Execution> refinement_;
+  Simplification<Surface, Execution> simplification_;
+  Swapping<Surface, Execution> swapping_;
+  Relocation<Surface, Execution> relocation_;
+  Adaptation_report report_;
+  std::size_t round_ = 0;
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_ADAPTATION_DRIVER_H

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The mesh under adaptation: connectivity, and for each vertex its location on the reference with what follows from
+// it. The kernels read and write this and nothing else.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_ADAPTED_SURFACE_H
+#define CGAL_SURFACE_MESH_ADAPTATION_ADAPTED_SURFACE_H
+
+#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/Metric_background.h>
+#include <CGAL/Surface_mesh_adaptation/Reference_surface.h>
+#include <CGAL/Surface_mesh_adaptation/metric.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// Everything that belongs to one vertex and follows from its location.
+template <class Metric>
+struct Placed_vertex
+{
+  Location location;
+  Vector_3 point;
+  Vector_3 normal;  ///< unit; zero on curves and at corners
+  Metric metric;
+};
+
+template <class Metric_, class Reconstruction_>
+class Adapted_surface
+{
+public:
+  using Metric = Metric_;
+  using Reconstruction = Reconstruction_;
+  using Reference = Reference_surface<Reconstruction>;
+  using Background = Metric_background<Metric>;
+
+  Mesh_view mesh;
+  std::vector<Vector_3> points;
+  std::vector<Vector_3> normals;
+  std::vector<Metric> metrics;
+  std::vector<Location> locations;
+  std::vector<Index> origin;         ///< vertex of the input that a vertex was, or `no_index`
+  std::vector<std::uint8_t> active;  ///< whether something at the vertex changed since it was last examined
+
+  template <class Execution>
+  Adapted_surface(const Execution& execution, const Reference& reference, const Background& background)
+    : mesh(reference.mesh), reference_(&reference), background_(&background)
+  {
+    const std::size_t n = mesh.number_of_vertices();
+    resize_vertices(n);
+    for_each_index(execution, n, [&](std::size_t v) {
+      set(Index(v), place(reference_->location_of_vertex(Index(v))));
+      points[v] = reference_->points[v];
+      origin[v] = Index(v);
+    });
+    std::fill(active.begin(), active.end(), std::uint8_t(1));
+  }
+
+  const Reference& reference() const { return *reference_; }
+  const Background& background() const { return *background_; }
+
+  Placed_vertex<Metric> place(const Location& l) const
+  {
+    const Surface_point p = reference_->evaluate(l);
+    return {l, p.position, p.normal, background_->at(*reference_, l, p)};
+  }
+
+  Placed_vertex<Metric> vertex(Index v) const { return {locations[v], points[v], normals[v], metrics[v]}; }
+
+  void set(Index v, const Placed_vertex<Metric>& p)
+  {
+    locations[v] = p.location;
+    points[v] = p.point;
+    normals[v] = p.normal;
+    metrics[v] = p.metric;
+  }
+
+  Vertex_class vertex_class(Index v) const { return locations[v].kind; }
+
+  /// Metric length of the edge between `a` and `b`, the same to the bit from both sides.
+  double length(Index a, Index b) const
+  {
+    return a < b ? edge_length(metrics[a], metrics[b], points[b] - points[a])
+                 : edge_length(metrics[b], metrics[a], points[a] - points[b]);
+  }
+
+  double length(Index h) const { return length(mesh.source(h), mesh.target(h)); }
+
+  double quality(Index a, Index b, Index c) const
+  {
+    return face_quality(metrics[a], metrics[b], metrics[c], points[b] - points[a], points[c] - points[a]);
+  }
+
+  /// Smallest cosine between the normal of the face and the surface normals of its corners; 1 if none of them has one.
+  double alignment(Index a, Index b, Index c) const
+  {
+    return alignment(normal(a, b, c), a, b, c);
+  }
+
+  double alignment(const Vector_3& unit_normal, Index a, Index b, Index c) const
+  {
+    double least = 1;
+    for (Index v : {a, b, c})
+      if (vertex_class(v) == Vertex_class::smooth) least = (std::min)(least, unit_normal.dot(normals[v]));
+    return least;
+  }
+
+  /// Unit normal of the face, zero if it is degenerate.
+  Vector_3 normal(Index a, Index b, Index c) const
+  {
+    const Vector_3 n = (points[b] - points[a]).cross(points[c] - points[a]);
+    const double length = n.norm();
+    return length > 0 ? Vector_3(n / length) : Vector_3(Vector_3::Zero());
+  }
+
+  /// Where an edge is split: the middle of its arc on a feature curve, else the point of the surface next to the middle
+  /// of the edge, reached from whatever neighbouring vertex lies in the same smooth sector.
+  Location middle(Index h) const
+  {
+    const Index a = (std::min)(mesh.source(h), mesh.target(h)), b = (std::max)(mesh.source(h), mesh.target(h));
+    if (mesh.is_feature(h)) {
+      const auto arc = reference_->arc(mesh.curve[h], locations[a], locations[b]);
+      return reference_->on_curve(mesh.curve[h], 0.5 * (arc.first + arc.second));
+    }
+    const Vector_3 target = 0.5 * (points[a] + points[b]);
+    const double precision = split_precision * (points[b] - points[a]).norm();
+    return reference_->locate(smooth_start(h, a, b, target), target, precision);
+  }
+
+  void resize_vertices(std::size_t n)
+  {
+    points.resize(n);
+    normals.resize(n);
+    metrics.resize(n);
+    locations.resize(n);
+    origin.resize(n, no_index);
+    active.resize(n, 1);
+  }
+
+private:
+  static constexpr double split_precision = 0.02; // of the edge: later moves undo the rest
+
+  Location smooth_start(Index h, Index a, Index b, const Vector_3& target) const
+  {
+    for (Index v : {a, b, mesh.apex(h), mesh.apex(mesh.twin[h])})
+      if (vertex_class(v) == Vertex_class::smooth) return locations[v];
+    return reference_->smooth_location_near(locations[a], target);
+  }
+
+  const Reference* reference_;
+  const Background* background_;
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_ADAPTED_SURFACE_H

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Feature classification: ridges, boundaries and constrained edges, chained into curves between corners.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_FEATURES_H
+#define CGAL_SURFACE_MESH_ADAPTATION_FEATURES_H
+
+#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/execution.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// How a vertex may move: on the surface, along its feature curve, or not at all.
+enum class Vertex_class : std::uint8_t { smooth, curve, corner };
+
+/// A chain of feature edges from corner to corner, or closed without a corner (first and last vertex equal).
+struct Feature_curve
+{
+  std::vector<Index> vertices;
+  std::vector<double> arc_length;  ///< of each vertex from the first, along the chords
+  std::vector<Vector_3> tangents;  ///< unit, in the direction of the chain
+  bool closed = false;             ///< whether the chain is a cycle that no corner interrupts
+
+  bool is_closed() const { return closed; }
+  double length() const { return arc_length.back(); }
+
+  /// The edge of the chain that contains arc length `s`.
+  std::size_t segment(double s) const
+  {
+    const auto after = std::upper_bound(arc_length.begin() + 1, arc_length.end() - 1, s);
+    return std::size_t(after - arc_length.begin()) - 1;
+  }
+
+  /// Position of arc length `s` in segment `i`, in [0, 1].
+  double parameter(std::size_t i, double s) const
+  {
+    const double length_of_segment = arc_length[i + 1] - arc_length[i];
+    return length_of_segment > 0 ? (std::min)(1.0, (std::max)(0.0, (s - arc_length[i]) / length_of_segment)) : 0;
+  }
+};
+
+/// The place of a curve vertex on its curve.
+struct Curve_node
+{
+  Index curve = no_curve;
+  Index index = 0;
+};
+
+/// What the user asks for and constrains; flags are per element of the mesh view, empty for "none".
+struct Feature_parameters
+{
+  bool detect_ridges = true;
+  double ridge_angle = 45;    ///< degrees: an edge is a ridge if the normals of its faces differ by more
+  double corner_angle = 60;   ///< degrees: a curve that turns by more at a vertex has a corner there
+  std::vector<std::uint8_t> halfedge_is_constrained;
+  std::vector<std::uint8_t> vertex_is_constrained;
+};
+
+struct Features
+{
+  std::vector<Vertex_class> vertex_class;
+  std::vector<Curve_node> node_of_vertex;  ///< of curve vertices; of a closed chain's first vertex, index 0
+  std::vector<Feature_curve> curves;
+
+  /// Unit tangent of `curve` at its vertex `v`; at a corner, the direction of the edge `chord`.
+  Vector_3 tangent(Index curve, Index v, const Vector_3& chord) const
+  {
+    if (vertex_class[v] != Vertex_class::curve) return chord.normalized();
+    return curves[curve].tangents[node_of_vertex[v].index];
+  }
+};
+
+namespace internal {
+
+/// Feature edges with fewer edges than this in an isolated chain of ridges are taken for noise of the surface.
+constexpr std::size_t shortest_isolated_ridge = 5;
+
+/// One run of the detection: marks, corners, chains.
+class Feature_detection
+{
+public:
+  Feature_detection(Mesh_view& mesh, const std::vector<Vector_3>& points, const Feature_parameters& parameters)
+    : mesh_(mesh), points_(points), parameters_(parameters)
+    , is_feature_(mesh.number_of_halfedges(), 0)
+  {}
+
+  template <class Execution>
+  Features run(const Execution& execution)
+  {
+    mark_feature_edges(execution);
+    if (parameters_.detect_ridges) remove_isolated_ridges();
+    features_.vertex_class.assign(mesh_.number_of_vertices(), Vertex_class::smooth);
+    features_.node_of_vertex.assign(mesh_.number_of_vertices(), Curve_node());
+    for_each_index(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
+      features_.vertex_class[v] = classify(Index(v));
+    });
+    make_corners_on_tiny_cycles();
+    chain_curves();
+    return std::move(features_);
+  }
+
+private:
+  enum Mark : std::uint8_t { none = 0, ridge = 1, kept = 2 }; // kept: boundary or constrained, never filtered
+
+  Vector_3 normal(Index f) const
+  {
+    const std::size_t h = 3 * std::size_t(f);
+    const Vector_3& p = points_[mesh_.corner[h]];
+    return (points_[mesh_.corner[h + 1]] - p).cross(points_[mesh_.corner[h + 2]] - p);
+  }
+
+  bool is_ridge(Index h) const
+  {
+    const Vector_3 a = normal(Mesh_view::face(h)), b = normal(Mesh_view::face(mesh_.twin[h]));
+    return a.dot(b) < std::cos(parameters_.ridge_angle * M_PI / 180) * a.norm() * b.norm();
+  }
+
+  template <class Execution>
+  void mark_feature_edges(const Execution& execution)
+  {
+    for_each_index(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
+      const Index h = Index(i);
+      const bool constrained = !parameters_.halfedge_is_constrained.empty() &&
+                               parameters_.halfedge_is_constrained[h] != 0;
+      if (mesh_.is_border(h) || constrained) is_feature_[h] = kept;
+      else if (parameters_.detect_ridges && is_ridge(mesh_.edge_owner(h))) is_feature_[h] = ridge;
+    });
+  }
+
+  /// Calls `f(w, mark)` for the neighbours `w` of `v` along feature edges.
+  template <class F>
+  void for_each_feature_neighbor(Index v, const F& f) const
+  {
+    Index last = no_index;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      if (is_feature_[h] != none) f(mesh_.target(h), is_feature_[h]);
+      last = Mesh_view::previous(h);
+    });
+    if (mesh_.is_border(last)) f(mesh_.source(last), is_feature_[last]);
+  }
+
+  std::size_t feature_degree(Index v) const
+  {
+    std::size_t n = 0;
+    for_each_feature_neighbor(v, [&](Index, std::uint8_t) { ++n; });
+    return n;
+  }
+
+  /// Ridges that form a short open chain touching nothing else.
+  void remove_isolated_ridges()
+  {
+    std::vector<std::uint8_t> visited(mesh_.number_of_vertices(), 0);
+    for (std::size_t v = 0; v < mesh_.number_of_vertices(); ++v) {
+      if (visited[v] || feature_degree(Index(v)) != 1) continue;
+      std::vector<Index> chain{Index(v)};
+      bool isolated = true;
+      Index previous = no_index;
+      for (Index current = Index(v); current != no_index;) {
+        visited[current] = 1;
+        const std::size_t degree = feature_degree(current);
+        Index next = no_index;
+        for_each_feature_neighbor(current, [&](Index w, std::uint8_t mark) {
+          if (mark != ridge) isolated = false;
+          if (w != previous) next = w;
+        });
+        if (degree > 2 || chain.size() > shortest_isolated_ridge) isolated = false;
+        if (!isolated || (degree == 1 && previous != no_index)) break;
+        chain.push_back(next);
+        previous = current;
+        current = next;
+      }
+      if (isolated && chain.size() <= shortest_isolated_ridge) unmark(chain);
+    }
+  }
+
+  void unmark(const std::vector<Index>& chain)
+  {
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      const Index h = mesh_.halfedge(chain[i - 1], chain[i]);
+      is_feature_[h] = is_feature_[mesh_.twin[h]] = none;
+    }
+  }
+
+  Vertex_class classify(Index v) const
+  {
+    if (!parameters_.vertex_is_constrained.empty() && parameters_.vertex_is_constrained[v]) return Vertex_class::corner;
+    Ring<Index> along;
+    for_each_feature_neighbor(v, [&](Index w, std::uint8_t) { along.push_back(w); });
+    if (along.empty()) return Vertex_class::smooth;
+    if (along.size() != 2) return Vertex_class::corner;
+    const Vector_3 a = points_[v] - points_[along[0]], b = points_[along[1]] - points_[v];
+    const bool straight = a.dot(b) >= std::cos(parameters_.corner_angle * M_PI / 180) * a.norm() * b.norm();
+    return straight ? Vertex_class::curve : Vertex_class::corner;
+  }
+
+  /// The vertices from `start` along the feature edge to `second`, up to a corner or back to `start`.
+  std::vector<Index> chain_from(Index start, Index second) const
+  {
+    std::vector<Index> chain{start};
+    for (Index previous = start, current = second;;) {
+      chain.push_back(current);
+      if (features_.vertex_class[current] != Vertex_class::curve || current == start) return chain;
+      Index next = no_index;
+      for_each_feature_neighbor(current, [&](Index w, std::uint8_t) {
+        if (w != previous) next = w;
+      });
+      previous = current;
+      current = next;
+    }
+  }
+
+  /// A cycle of which one edge is a large part cannot be parametrised by its arc length once it is coarser: its
+  /// vertices are kept.
+  void make_corners_on_tiny_cycles()
+  {
+    std::vector<std::uint8_t> visited(mesh_.number_of_vertices(), 0);
+    for (std::size_t v = 0; v < mesh_.number_of_vertices(); ++v) {
+      if (visited[v] || features_.vertex_class[v] != Vertex_class::curve) continue;
+      Index second = no_index;
+      for_each_feature_neighbor(Index(v), [&](Index w, std::uint8_t) { second = w; });
+      const std::vector<Index> chain = chain_from(Index(v), second);
+      for (Index w : chain) visited[w] = 1;
+      if (chain.front() != chain.back()) continue;
+      double length = 0, longest = 0;
+      for (std::size_t i = 1; i < chain.size(); ++i) {
+        const double l = (points_[chain[i]] - points_[chain[i - 1]]).norm();
+        length += l;
+        longest = (std::max)(longest, l);
+      }
+      if (chain.size() <= 8 || longest > length / 4)
+        for (Index w : chain) features_.vertex_class[w] = Vertex_class::corner;
+    }
+  }
+
+  void chain_curves()
+  {
+    mesh_.curve.assign(mesh_.number_of_halfedges(), no_curve);
+    const auto start_chains = [&](Vertex_class kind) {
+      for (std::size_t v = 0; v < mesh_.number_of_vertices(); ++v) {
+        if (features_.vertex_class[v] != kind) continue;
+        Ring<Index> along;
+        for_each_feature_neighbor(Index(v), [&](Index w, std::uint8_t) { along.push_back(w); });
+        for (Index w : along)
+          if (mesh_.curve[any_halfedge(Index(v), w)] == no_curve) add_curve(chain_from(Index(v), w));
+      }
+    };
+    start_chains(Vertex_class::corner);
+    start_chains(Vertex_class::curve); // what is left are cycles
+  }
+
+  Index any_halfedge(Index v, Index w) const
+  {
+    const Index h = mesh_.halfedge(v, w);
+    return h != no_index ? h : mesh_.halfedge(w, v);
+  }
+
+  void add_curve(std::vector<Index> chain)
+  {
+    const Index id = Index(features_.curves.size());
+    Feature_curve c;
+    c.closed = features_.vertex_class[chain.front()] == Vertex_class::curve;
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      const double step = i == 0 ? 0 : (points_[chain[i]] - points_[chain[i - 1]]).norm();
+      c.arc_length.push_back(i == 0 ? 0 : c.arc_length.back() + step);
+      if (i > 0) mesh_.set_curve(any_halfedge(chain[i - 1], chain[i]), id);
+      if (features_.vertex_class[chain[i]] == Vertex_class::curve && !(c.closed && i + 1 == chain.size()))
+        features_.node_of_vertex[chain[i]] = {id, Index(i)};
+    }
+    c.vertices = std::move(chain);
+    for (std::size_t i = 0; i < c.vertices.size(); ++i) c.tangents.push_back(tangent(c, i));
+    features_.curves.push_back(std::move(c));
+  }
+
+  /// Three-point tangent, of second order on uneven points; one-sided at the ends.
+  Vector_3 tangent(const Feature_curve& c, std::size_t i) const
+  {
+    const std::size_t n = c.vertices.size();
+    const bool first = i == 0, last = i + 1 == n;
+    const Vector_3& p = points_[c.vertices[i]];
+    const Index before = c.vertices[first ? n - 2 : i - 1], after = c.vertices[last ? 1 : i + 1];
+    if (first && !c.closed) return (points_[after] - p).normalized();
+    if (last && !c.closed) return (p - points_[before]).normalized();
+    const Vector_3 dm = p - points_[before], dp = points_[after] - p;
+    const double lm = dm.norm(), lp = dp.norm();
+    return (lm * lp > 0 ? Vector_3(dp * (lm / lp) + dm * (lp / lm)) : Vector_3(dp + dm)).normalized();
+  }
+
+  Mesh_view& mesh_;
+  const std::vector<Vector_3>& points_;
+  const Feature_parameters& parameters_;
+  std::vector<std::uint8_t> is_feature_;
+  Features features_;
+};
+
+} // namespace internal
+
+/// Detects the features of a mesh and writes the curve of every halfedge into `mesh.curve`. A vertex on one feature
+/// curve that does not turn sharply there is a curve vertex; one at which curves end, meet, branch or turn, or which
+/// is constrained, is a corner.
+template <class Execution>
+Features detect_features(const Execution& execution, Mesh_view& mesh, const std::vector<Vector_3>& points,
+                         const Feature_parameters& parameters)
+{
+  return internal::Feature_detection(mesh, points, parameters).run(execution);
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_FEATURES_H

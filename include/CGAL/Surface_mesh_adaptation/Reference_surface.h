@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The surface that is adapted, as an immutable reference: the input mesh, its normals and feature curves, and a patch
+// over each of its faces. Every vertex of the adapted mesh is anchored in it by a `Location`; positions and normals
+// are functions of the location, so repeated moves cannot drift, and concurrent ones cannot conflict.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_REFERENCE_SURFACE_H
+#define CGAL_SURFACE_MESH_ADAPTATION_REFERENCE_SURFACE_H
+
+#include <CGAL/Surface_mesh_adaptation/Features.h>
+#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/surface_reconstruction.h>
+#include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// Where a vertex sits on the reference surface.
+struct Location
+{
+  Vertex_class kind = Vertex_class::smooth;
+  Index cell = 0;             ///< smooth: face; curve: feature curve; corner: vertex of the reference
+  double u = 0, v = 0;        ///< smooth: barycentric coordinates of corners 1 and 2 of the face; curve: `u` is the
+                              ///< arc length from the start of the curve
+};
+
+template <class Reconstruction>
+class Reference_surface
+{
+public:
+  Mesh_view mesh;
+  std::vector<Vector_3> points;
+  Features features;
+  Corner_normals normals;
+
+  /// Takes over the mesh, detects its features and estimates its normals.
+  template <class Execution>
+  Reference_surface(const Execution& execution, Mesh_view mesh_, std::vector<Vector_3> points_,
+                    const Feature_parameters& parameters)
+    : mesh(std::move(mesh_)), points(std::move(points_))
+    , features(detect_features(execution, mesh, points, parameters))
+    , normals(estimate_normals(execution, mesh, points))
+  {}
+
+  /// The location of vertex `v` of the reference.
+  Location location_of_vertex(Index v) const
+  {
+    const Vertex_class c = features.vertex_class[v];
+    if (c == Vertex_class::corner) return {c, v, 0, 0};
+    if (c == Vertex_class::curve) {
+      const Curve_node node = features.node_of_vertex.at(v);
+      return {c, node.curve, features.curves[node.curve].arc_length[node.index], 0};
+    }
+    const Index h = mesh.outgoing[v];
+    return {c, Mesh_view::face(h), h % 3 == 1 ? 1.0 : 0.0, h % 3 == 2 ? 1.0 : 0.0};
+  }
+
+  /// Position and normal at `l`; the normal is zero on curves and at corners, which have several.
+  Surface_point evaluate(const Location& l) const
+  {
+    switch (l.kind) {
+    case Vertex_class::smooth: return Reconstruction::evaluate(patch(l.cell), l.u, l.v);
+    case Vertex_class::curve: return {curve_point(features.curves[l.cell], l.u), Vector_3::Zero()};
+    default: return {points[l.cell], Vector_3::Zero()};
+    }
+  }
+
+  /// Moves `l` along the surface by the vector `d`: the straightest path over the faces of the reference that leaves
+  /// in the direction of the projection of `d` onto the face of `l`, with the length of that projection, or of `d` if
+  /// `keep_length`. The path ends early where it meets a feature or the boundary.
+  /// \pre `l.kind` is smooth
+  Location trace(const Location& l, const Vector_3& d, bool keep_length) const
+  {
+    Index f = l.cell;
+    double b[3] = {1 - l.u - l.v, l.u, l.v};
+    Face_frame frame = face_frame(f);
+    Vector_3 step = d - d.dot(frame.normal) * frame.normal;
+    if (keep_length) {
+      const double length = step.norm();
+      if (length > 0) step *= d.norm() / length;
+    }
+    for (int crossings = 0; crossings < max_crossings; ++crossings) {
+      const int exit = advance(frame, step, b);
+      if (exit < 0) break;
+      const Index h = 3 * f + Index((exit + 1) % 3);
+      if (mesh.is_feature(h) || mesh.is_border(h)) break;
+      const Index t = mesh.twin[h];
+      const Vector_3 edge = (points[mesh.target(h)] - points[mesh.source(h)]).normalized();
+      const double along = step.dot(edge), across = step.dot(edge.cross(frame.normal));
+      f = Mesh_view::face(t);
+      frame = face_frame(f);
+      step = along * edge + across * edge.cross(frame.normal);
+      const double at_target = b[(exit + 2) % 3], at_source = b[(exit + 1) % 3];
+      const int k = int(t % 3);
+      b[k] = at_target;
+      b[(k + 1) % 3] = at_source;
+      b[(k + 2) % 3] = 0;
+    }
+    return {Vertex_class::smooth, f, b[1], b[2]};
+  }
+
+  /// The location near `l` whose point is closest to `target`, found by walking: the residual is projected onto the
+  /// tangent plane and traced, until it is shorter than `precision`. \pre `l.kind` is smooth
+  Location locate(Location l, const Vector_3& target, double precision) const
+  {
+    for (int i = 0; i < max_corrections; ++i) {
+      const Surface_point x = evaluate(l);
+      Vector_3 residual = target - x.position;
+      residual -= residual.dot(x.normal) * x.normal;
+      if (residual.squaredNorm() <= precision * precision) break;
+      l = trace(l, residual, false);
+    }
+    return l;
+  }
+
+  /// A smooth location in the faces around a curve or corner location, from which to walk to `target`:
+  /// the closest point to `target` among those faces.
+  Location smooth_location_near(const Location& l, const Vector_3& target) const
+  {
+    Location best;
+    double best_distance = -1;
+    for_each_incident_face(l, [&](Index f) {
+      const Location candidate = closest_location_in_face(f, target);
+      const double distance = (point_in_face(candidate) - target).squaredNorm();
+      if (best_distance < 0 || distance < best_distance) {
+        best_distance = distance;
+        best = candidate;
+      }
+    });
+    return best;
+  }
+
+  /// Arc lengths on `curve` of two adjacent vertices on it: those of the ends of the shorter arc between them, so
+  /// that the second may exceed the length of the curve or be negative on a closed curve.
+  std::pair<double, double> arc(Index curve, const Location& a, const Location& b) const
+  {
+    const Feature_curve& c = features.curves[curve];
+    const double sa = arc_position(c, a, b), sb = arc_position(c, b, a);
+    if (!c.is_closed()) return {sa, sb};
+    const double length = c.length();
+    const double d = sb - sa;
+    return {sa, d > length / 2 ? sb - length : d < -length / 2 ? sb + length : sb};
+  }
+
+  /// The location at arc length `s` of `curve`, which wraps around on a closed curve. The ends of an open one are
+  /// corners, so `s` must lie inside.
+  Location on_curve(Index curve, double s) const
+  {
+    const Feature_curve& c = features.curves[curve];
+    if (c.is_closed()) s -= c.length() * std::floor(s / c.length());
+    return {Vertex_class::curve, curve, s, 0};
+  }
+
+  /// Barycentric coordinates and vertices of the reference that `l` lies between: for what is interpolated linearly.
+  struct Interpolation
+  {
+    std::array<Index, 3> vertices;
+    std::array<double, 3> weights;
+  };
+
+  Interpolation interpolation(const Location& l) const
+  {
+    if (l.kind == Vertex_class::corner) return {{l.cell, l.cell, l.cell}, {1, 0, 0}};
+    if (l.kind == Vertex_class::curve) {
+      const Feature_curve& c = features.curves[l.cell];
+      const std::size_t i = c.segment(l.u);
+      const double t = c.parameter(i, l.u);
+      return {{c.vertices[i], c.vertices[i + 1], c.vertices[i + 1]}, {1 - t, t, 0}};
+    }
+    const std::size_t h = 3 * std::size_t(l.cell);
+    return {{mesh.corner[h], mesh.corner[h + 1], mesh.corner[h + 2]}, {1 - l.u - l.v, l.u, l.v}};
+  }
+
+private:
+  static constexpr int max_crossings = 256; // a path this long means a metric far coarser than the reference
+  static constexpr int max_corrections = 4; // each one squares the error of a smooth surface
+
+  struct Face_frame
+  {
+    Vector_3 e1, e2, normal; // unit normal
+    double double_area;
+  };
+
+  Face_frame face_frame(Index f) const
+  {
+    const std::size_t h = 3 * std::size_t(f);
+    const Vector_3& p = points[mesh.corner[h]];
+    Face_frame frame;
+    frame.e1 = points[mesh.corner[h + 1]] - p;
+    frame.e2 = points[mesh.corner[h + 2]] - p;
+    frame.normal = frame.e1.cross(frame.e2);
+    frame.double_area = frame.normal.norm();
+    if (frame.double_area > 0) frame.normal /= frame.double_area;
+    return frame;
+  }
+
+  /// Moves `b` by `step`, or to the border of the face: then `step` is shortened by what was used and the corner
+  /// opposite to the edge that was met is returned, else -1.
+  static int advance(const Face_frame& frame, Vector_3& step, double (&b)[3])
+  {
+    if (!(frame.double_area > 0)) return -1;
+    const double d1 = step.cross(frame.e2).dot(frame.normal) / frame.double_area;
+    const double d2 = frame.e1.cross(step).dot(frame.normal) / frame.double_area;
+    const double db[3] = {-d1 - d2, d1, d2};
+    double s = 1;
+    int exit = -1;
+    for (int i = 0; i < 3; ++i) {
+      if (db[i] >= 0 || b[i] + db[i] >= 0) continue;
+      const double si = b[i] / -db[i];
+      if (si < s) {
+        s = si;
+        exit = i;
+      }
+    }
+    for (int i = 0; i < 3; ++i) b[i] = (std::max)(0.0, b[i] + s * db[i]);
+    if (exit >= 0) b[exit] = 0;
+    const double sum = b[0] + b[1] + b[2];
+    for (double& x : b) x /= sum;
+    step *= 1 - s;
+    return exit;
+  }
+
+  Patch patch(Index f) const
+  {
+    Patch p;
+    const std::size_t h = 3 * std::size_t(f);
+    for (std::size_t i = 0; i < 3; ++i) {
+      p.points[i] = points[mesh.corner[h + i]];
+      p.normals[i] = normals.at(Index(h + i));
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index curve = mesh.curve[h + i];
+      p.is_feature[i] = curve != no_curve;
+      if (!p.is_feature[i]) continue;
+      const Vector_3 chord = p.points[(i + 1) % 3] - p.points[i];
+      p.tangents[i][0] = features.tangent(curve, mesh.corner[h + i], chord);
+      p.tangents[i][1] = features.tangent(curve, mesh.corner[h + (i + 1) % 3], chord);
+    }
+    return p;
+  }
+
+  Vector_3 curve_point(const Feature_curve& c, double s) const
+  {
+    const std::size_t i = c.segment(s);
+    return Reconstruction::evaluate_curve(points[c.vertices[i]], points[c.vertices[i + 1]], c.tangents[i],
+                                          c.tangents[i + 1], c.parameter(i, s));
+  }
+
+  /// The arc length of `a` on `c`; a corner is at the end that is nearer to its neighbour `b`.
+  double arc_position(const Feature_curve& c, const Location& a, const Location& b) const
+  {
+    if (a.kind == Vertex_class::curve) return a.u;
+    const bool first = c.vertices.front() == a.cell, last = c.vertices.back() == a.cell;
+    if (first && last) return b.kind == Vertex_class::curve && b.u > c.length() / 2 ? c.length() : 0;
+    return last ? c.length() : 0;
+  }
+
+  template <class F>
+  void for_each_incident_face(const Location& l, const F& f) const
+  {
+    const Interpolation where = interpolation(l);
+    for (int i = 0; i < 3; ++i) {
+      if (i > 0 && where.vertices[i] == where.vertices[i - 1]) continue;
+      mesh.for_each_outgoing(where.vertices[i], [&](Index h) { f(Mesh_view::face(h)); });
+    }
+  }
+
+  Vector_3 point_in_face(const Location& l) const
+  {
+    const Interpolation i = interpolation(l);
+    return i.weights[0] * points[i.vertices[0]] + i.weights[1] * points[i.vertices[1]] +
+           i.weights[2] * points[i.vertices[2]];
+  }
+
+  /// Projection onto the plane of `f` with negative barycentric coordinates cut off: exact inside, and good enough
+  /// outside to start a walk.
+  Location closest_location_in_face(Index f, const Vector_3& target) const
+  {
+    const Face_frame frame = face_frame(f);
+    if (!(frame.double_area > 0)) return {Vertex_class::smooth, f, 1.0 / 3, 1.0 / 3};
+    const Vector_3 d = target - points[mesh.corner[3 * std::size_t(f)]];
+    const double u = (std::max)(0.0, d.cross(frame.e2).dot(frame.normal) / frame.double_area);
+    const double v = (std::max)(0.0, frame.e1.cross(d).dot(frame.normal) / frame.double_area);
+    const double sum = (std::max)(1.0, u + v);
+    return {Vertex_class::smooth, f, u / sum, v / sum};
+  }
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_REFERENCE_SURFACE_H

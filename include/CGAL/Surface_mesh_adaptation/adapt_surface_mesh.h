@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_ADAPT_SURFACE_MESH_H
+#define CGAL_SURFACE_MESH_ADAPTATION_ADAPT_SURFACE_MESH_H
+
+#include <CGAL/Surface_mesh_adaptation/Adaptation_driver.h>
+#include <CGAL/Surface_mesh_adaptation/Adaptation_visitor.h>
+#include <CGAL/Surface_mesh_adaptation/internal/in_place.h>
+
+#include <functional>
+#include <utility>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/*!
+Adapts a triangulated surface to a metric field, in place: rounds of refinement, simplification, swapping and
+relocation, until the edges have length 1 in the metric and the faces are well shaped in it.
+
+The result is the same to the last bit for every execution policy and number of threads. The mesh is replaced in one
+step at the end: if anything throws, it is as it was.
+
+\param execution how to run; see `execution.h`. The overload without it takes a `ConcurrencyTag` or a policy type.
+\param mesh a triangulated 2-manifold, closed or with boundary, of any number of components. Its elements are
+       renumbered; of its property maps only the vertex points and those passed below are meaningful afterwards.
+\param field what to adapt to, a model of `MetricField`: `Uniform_metric_field`, `Curvature_metric_field`,
+       `Analytic_metric_field`, or a property map from vertices to sizes or to `Metric_tensor_3`.
+\param np named parameters, from `parameters` of this namespace or of CGAL
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{vertex_point_map}
+    \cgalParamDescription{the points of the vertices}
+    \cgalParamType{a `ReadWritePropertyMap` with the vertex descriptor as key and `Point_3` as value}
+    \cgalParamDefault{`get(CGAL::vertex_point, mesh)`}
+  \cgalParamNEnd
+  \cgalParamNBegin{number_of_iterations}
+    \cgalParamDescription{the largest number of rounds}
+    \cgalParamType{`unsigned int`}
+    \cgalParamDefault{`8`; fewer are done if nothing is left to gain}
+  \cgalParamNEnd
+  \cgalParamNBegin{feature_angle}
+    \cgalParamDescription{an edge is a ridge if the normals of its faces differ by more than this, in degrees}
+    \cgalParamType{`double`}
+    \cgalParamDefault{`45`}
+  \cgalParamNEnd
+  \cgalParamNBegin{detect_features}
+    \cgalParamDescription{whether ridges are detected; boundaries and constrained edges are features in any case}
+    \cgalParamType{`bool`}
+    \cgalParamDefault{`true`}
+  \cgalParamNEnd
+  \cgalParamNBegin{edge_is_constrained_map}
+    \cgalParamDescription{edges that are features; they may be split, and are marked again on the result if the map
+                          is writable}
+    \cgalParamType{a `ReadablePropertyMap` with the edge descriptor as key and `bool` as value}
+    \cgalParamDefault{no edge is constrained}
+  \cgalParamNEnd
+  \cgalParamNBegin{vertex_is_constrained_map}
+    \cgalParamDescription{vertices that stay where they are}
+    \cgalParamType{a `ReadablePropertyMap` with the vertex descriptor as key and `bool` as value; if writable, the
+                   vertices are marked again on the result}
+    \cgalParamDefault{no vertex is constrained}
+  \cgalParamNEnd
+  \cgalParamNBegin{surface_reconstruction}
+    \cgalParamDescription{the surface between the vertices of the input}
+    \cgalParamType{a model of `SurfaceReconstruction`}
+    \cgalParamDefault{`PN_triangle_reconstruction`}
+  \cgalParamNEnd
+  \cgalParamNBegin{output_metric_map}
+    \cgalParamDescription{where the metric at the vertices of the result is written}
+    \cgalParamType{a `WritablePropertyMap` with the vertex descriptor as key and `Metric_tensor_3` as value}
+    \cgalParamDefault{not written}
+  \cgalParamNEnd
+  \cgalParamNBegin{visitor}
+    \cgalParamDescription{follows the run and may stop it}
+    \cgalParamType{a model of `AdaptationVisitor`, or a `std::reference_wrapper` of one}
+    \cgalParamDefault{`Adaptation_visitor`}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
+
+\throws an exception derived from `Adaptation_error`, before the mesh is changed
+\complexity O(n log n) time, O(n) memory, for n the larger of the numbers of input and output vertices
+*/
+template <class Execution, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
+auto adapt_surface_mesh(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
+                        const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), Adaptation_report())
+{
+  const std::size_t rounds = internal::choose(np, CGAL::internal_np::number_of_iterations, default_number_of_rounds);
+  Adaptation_visitor nothing;
+  auto visitor_parameter = internal::choose(np, CGAL::internal_np::visitor, std::ref(nothing));
+  auto& visitor = internal::unwrap(visitor_parameter);
+  return internal::adapt_in_place(execution, mesh, field, np, [&](const auto& policy, auto& surface) {
+    return Adaptation_driver(policy, surface, visitor).run(rounds);
+  });
+}
+
+/// The same with the policy as a template parameter: `CGAL::Sequential_tag`, `CGAL::Parallel_tag`,
+/// `CGAL::Parallel_if_available_tag`, or an execution policy of this package.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = std::enable_if_t<!internal::is_execution<TriangleMesh>>>
+Adaptation_report adapt_surface_mesh(TriangleMesh& mesh, const MetricField& field,
+                                     const NamedParameters& np = CGAL::parameters::default_values())
+{
+  return adapt_surface_mesh(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_ADAPT_SURFACE_MESH_H

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What goes wrong, one type per cause. Everything thrown by the package derives from `Adaptation_error`.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_EXCEPTIONS_H
+#define CGAL_SURFACE_MESH_ADAPTATION_EXCEPTIONS_H
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// Base of every exception of the package.
+class Adaptation_error : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// An input that was rejected before anything was changed; `index()` is the first offending element,
+/// counted in the order in which the mesh (or the file) lists its elements, from 0.
+class Invalid_input_error : public Adaptation_error
+{
+public:
+  Invalid_input_error(const std::string& what, const std::string& element, std::size_t index)
+    : Adaptation_error(what + " (" + element + " " + std::to_string(index) + ")"), index_(index)
+  {}
+
+  std::size_t index() const { return index_; }
+
+private:
+  std::size_t index_;
+};
+
+/// A face with other than three corners.
+class Non_triangular_face_error : public Invalid_input_error
+{
+public:
+  explicit Non_triangular_face_error(std::size_t face)
+    : Invalid_input_error("the mesh has a face that is not a triangle", "face", face)
+  {}
+};
+
+/// A vertex whose incident faces do not form one fan, or an isolated vertex.
+class Non_manifold_vertex_error : public Invalid_input_error
+{
+public:
+  explicit Non_manifold_vertex_error(std::size_t vertex)
+    : Invalid_input_error("the faces around a vertex do not form a single fan", "vertex", vertex)
+  {}
+};
+
+/// Two faces that share two vertices but are not neighbours across them: the mesh is not a simplicial surface.
+class Non_simplicial_edge_error : public Invalid_input_error
+{
+public:
+  explicit Non_simplicial_edge_error(std::size_t vertex)
+    : Invalid_input_error("two edges join the same two vertices", "vertex", vertex)
+  {}
+};
+
+/// A coordinate that is NaN or infinite.
+class Non_finite_coordinate_error : public Invalid_input_error
+{
+public:
+  explicit Non_finite_coordinate_error(std::size_t vertex)
+    : Invalid_input_error("the mesh has a coordinate that is not finite", "vertex", vertex)
+  {}
+};
+
+/// A size that is not positive and finite, or a tensor that is not symmetric positive definite and finite.
+class Invalid_metric_error : public Invalid_input_error
+{
+public:
+  explicit Invalid_metric_error(std::size_t vertex)
+    : Invalid_input_error("the metric is not finite and positive definite", "vertex", vertex)
+  {}
+};
+
+/// An input with no face.
+class Empty_mesh_error : public Adaptation_error
+{
+public:
+  Empty_mesh_error() : Adaptation_error("the mesh has no face") {}
+};
+
+/// A parameter outside its domain.
+class Invalid_parameter_error : public Adaptation_error
+{
+public:
+  using Adaptation_error::Adaptation_error;
+};
+
+/// The adaptation would create more elements than the indices can number (2^31 halfedges).
+class Mesh_too_large_error : public Adaptation_error
+{
+public:
+  Mesh_too_large_error()
+    : Adaptation_error("the metric asks for more elements than can be numbered: check its units") {}
+};
+
+/// The distance between the input and the output could not be kept below the tolerance asked for.
+class Tolerance_error : public Adaptation_error
+{
+public:
+  Tolerance_error(double distance, double tolerance)
+    : Adaptation_error("the output is at a distance of " + std::to_string(distance) +
+                       " from the input, above the tolerance of " + std::to_string(tolerance))
+  {}
+};
+
+/// A file that cannot be read or written; `line()` is the offending line, from 1, or 0 if there is none.
+class Io_error : public Adaptation_error
+{
+public:
+  Io_error(const std::string& file, std::size_t line, const std::string& what)
+    : Adaptation_error(file + (line == 0 ? "" : ":" + std::to_string(line)) + ": " + what), line_(line)
+  {}
+
+  std::size_t line() const { return line_; }
+
+private:
+  std::size_t line_;
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_EXCEPTIONS_H

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What every entry point does around its kernels: read the parameters, import the mesh, build the reference and the
+// metric, run, and write the result back.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_IN_PLACE_H
+#define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_IN_PLACE_H
+
+#include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
+#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/face_graph.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Any_execution.h>
+#include <CGAL/Surface_mesh_adaptation/locality.h>
+#include <CGAL/Surface_mesh_adaptation/metric_fields.h>
+#include <CGAL/Surface_mesh_adaptation/parameters.h>
+
+#include <functional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+constexpr unsigned default_number_of_rounds = 8;
+
+namespace internal {
+
+template <class T> T& unwrap(T& t) { return t; }
+template <class T> T& unwrap(std::reference_wrapper<T>& r) { return r.get(); }
+
+/// The value of a named parameter, or a default.
+template <class NamedParameters, class Tag, class Default>
+auto choose(const NamedParameters& np, Tag tag, const Default& by_default)
+{
+  return CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, tag), by_default);
+}
+
+template <class NamedParameters, class Tag>
+constexpr bool has_parameter =
+  !std::is_same_v<std::decay_t<decltype(CGAL::parameters::get_parameter(std::declval<NamedParameters>(), Tag()))>,
+                  CGAL::internal_np::Param_not_found>;
+
+template <class FaceGraph, class NamedParameters>
+auto point_map(FaceGraph& graph, const NamedParameters& np)
+{
+  return CGAL::parameters::choose_parameter(
+    CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point),
+    CGAL::get_property_map(CGAL::vertex_point, graph));
+}
+
+template <class Category>
+constexpr bool is_writable = std::is_convertible_v<Category, boost::writable_property_map_tag>;
+
+/// Feature detection parameters from the named parameters, with the constraints read from the user's maps.
+template <class FaceGraph, class NamedParameters>
+Feature_parameters feature_parameters(const FaceGraph& graph, const Imported_mesh<FaceGraph>& imported,
+                                      const NamedParameters& np)
+{
+  Feature_parameters p;
+  p.ridge_angle = choose(np, internal_np::feature_angle, p.ridge_angle);
+  p.detect_ridges = choose(np, internal_np::detect_features, p.detect_ridges);
+  if (!(p.ridge_angle > 0 && p.ridge_angle <= 180))
+    throw Invalid_parameter_error("the feature angle must lie between 0 and 180 degrees");
+  if constexpr (has_parameter<NamedParameters, CGAL::internal_np::edge_is_constrained_t>) {
+    const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained);
+    for (const auto h : imported.halfedges) p.halfedge_is_constrained.push_back(get(map, edge(h, graph)) ? 1 : 0);
+  }
+  if constexpr (has_parameter<NamedParameters, CGAL::internal_np::vertex_is_constrained_t>) {
+    const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_is_constrained);
+    for (const auto v : imported.vertices) p.vertex_is_constrained.push_back(get(map, v) ? 1 : 0);
+  }
+  return p;
+}
+
+/// Marks the constrained elements of the result in the user's maps, where these can be written.
+template <class FaceGraph, class Surface, class NamedParameters>
+void write_constraints(FaceGraph& graph, const Surface& surface, const Feature_parameters& features,
+                       const NamedParameters& np)
+{
+  if constexpr (has_parameter<NamedParameters, CGAL::internal_np::vertex_is_constrained_t>) {
+    const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_is_constrained);
+    if constexpr (is_writable<typename boost::property_traits<std::decay_t<decltype(map)>>::category>) {
+      std::size_t i = 0;
+      for (const auto v : vertices(graph)) {
+        const Index o = surface.origin[i++];
+        put(map, v, o != no_index && features.vertex_is_constrained[o] != 0);
+      }
+    }
+  }
+  if constexpr (has_parameter<NamedParameters, CGAL::internal_np::edge_is_constrained_t>) {
+    const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained);
+    if constexpr (is_writable<typename boost::property_traits<std::decay_t<decltype(map)>>::category>) {
+      for (const auto e : edges(graph)) put(map, e, false);
+      std::size_t h = 0;
+      for (const auto f : faces(graph))
+        for (const auto g : CGAL::halfedges_around_face(halfedge(f, graph), graph)) {
+          if (surface.mesh.is_feature(Index(h))) put(map, edge(g, graph), true);
+          ++h;
+        }
+    }
+  }
+}
+
+template <class FaceGraph, class Surface, class NamedParameters>
+void write_metric(FaceGraph& graph, const Surface& surface, const NamedParameters& np)
+{
+  if constexpr (has_parameter<NamedParameters, internal_np::output_metric_map_t>) {
+    const auto map = CGAL::parameters::get_parameter(np, internal_np::output_metric_map);
+    std::size_t i = 0;
+    for (const auto v : vertices(graph)) put(map, v, surface.metrics[i++].tensor());
+  }
+}
+
+/// Runs `kernels(execution, surface)`, which returns a report, on `graph`.
+template <class Execution, class FaceGraph, class MetricField, class NamedParameters, class Kernels>
+Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, const MetricField& field,
+                                 const NamedParameters& np, const Kernels& kernels)
+{
+  using Reconstruction = std::decay_t<decltype(
+    choose(np, internal_np::surface_reconstruction, PN_triangle_reconstruction()))>;
+  const Any_execution execution(policy);
+  const auto points = point_map(graph, np);
+  auto imported = read_face_graph(execution, graph, points);
+  Feature_parameters features = feature_parameters(graph, imported, np);
+  improve_locality(execution, imported, features);
+  const Reference_surface<Reconstruction> reference(execution, imported.mesh, imported.points, features);
+
+  Adaptation_report report;
+  with_background(execution, field, imported, reference, [&](const auto& background) {
+    using Metric = std::decay_t<decltype(background.at(reference, Location(), Surface_point()))>;
+    Adapted_surface<Metric, Reconstruction> surface(execution, reference, background);
+    report = kernels(execution, surface);
+    write_connectivity(execution, surface.mesh, graph);
+    write_points(surface.points, graph, points);
+    write_constraints(graph, surface, features, np);
+    write_metric(graph, surface, np);
+  });
+  report.execution = Execution::name;
+  report.threads = policy.concurrency();
+  return report;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_IN_PLACE_H

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// One line for each named parameter; included twice by parameters.h, hence without include guard.
+
+// of CGAL
+CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::vertex_point_t, vertex_point_map)
+CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::edge_is_constrained_t, edge_is_constrained_map)
+CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::vertex_is_constrained_t, vertex_is_constrained_map)
+CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::number_of_iterations_t, number_of_iterations)
+CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::visitor_t, visitor)
+
+// of this package
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::feature_angle_t, feature_angle)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::detect_features_t, detect_features)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::output_metric_map_t, output_metric_map)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::surface_reconstruction_t, surface_reconstruction)

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Refinement: splits the edges that are too long in the metric (paper, figure 2 and section 5).
+//
+// A sweep marks edges, evaluates their midpoints on the surface, and cuts every face by the pattern of its marks, all
+// at once and without a conflict graph: a new vertex is written by the face that owns its edge, a new face by its
+// parent. A face of which a child would be inverted takes its marks back. The sweep also closes the holes that
+// simplification left.
+//
+// Invariants: simplicial 2-manifold, features, boundary cycles. Work: O(n) a sweep; span: O(log n).
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_REFINEMENT_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_REFINEMENT_H
+
+#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/exceptions.h>
+#include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/restructure.h>
+
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+template <class Surface, class Execution>
+class Refinement
+{
+public:
+  using Metric = typename Surface::Metric;
+
+  Refinement(const Execution& execution, Surface& surface) : execution_(execution), surface_(surface), mesh_(surface.mesh)
+  {}
+
+  /// Splits every edge longer than `max_length`, once. Returns the number of edges split.
+  std::size_t sweep(double max_length, Sweep_counts& counts)
+  {
+    counts.candidates += mesh_.number_of_halfedges() / 2;
+    mark(max_length);
+    for (;;) {
+      const std::size_t marked = count_marked();
+      if (marked == 0) return 0;
+      const Restructuring plan(execution_, mesh_, codes_);
+      if (plan.number_of_faces() > max_number_of_faces) throw Mesh_too_large_error();
+      place_vertices(plan);
+      if (take_back_marks_of_bad_faces(plan)) continue;
+      choose_diagonals(plan);
+      commit(plan);
+      ++counts.sweeps;
+      counts.applied += marked;
+      return marked;
+    }
+  }
+
+  /// Renumbers without splitting: closes the holes of removed elements.
+  void compact()
+  {
+    codes_.assign(mesh_.number_of_faces(), 0);
+    const Restructuring plan(execution_, mesh_, codes_);
+    place_vertices(plan);
+    commit(plan);
+  }
+
+private:
+  static constexpr Index max_number_of_faces = std::numeric_limits<std::int32_t>::max() / 3;
+
+  template <class F>
+  void for_each_face(const F& f) const
+  {
+    for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t i) {
+      if (!mesh_.is_removed_face(Index(i))) f(Index(i));
+    });
+  }
+
+  void mark(double max_length)
+  {
+    codes_.assign(mesh_.number_of_faces(), 0);
+    for_each_face([&](Index f) {
+      for (Index i = 0; i < 3; ++i)
+        if (surface_.length(3 * f + i) > max_length) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
+    });
+  }
+
+  std::size_t count_marked() const
+  {
+    return reduce(execution_, mesh_.number_of_faces(), std::size_t(0), [&](std::size_t f) {
+      std::size_t n = 0;
+      for (Index i = 0; i < 3; ++i)
+        if ((codes_[f] >> i & 1) != 0 && mesh_.is_edge_owner(3 * Index(f) + i)) ++n;
+      return n;
+    }, [](std::size_t a, std::size_t b) { return a + b; });
+  }
+
+  /// Prepares the new vertex arrays: kept vertices are copied, midpoints are placed on the surface.
+  void place_vertices(const Restructuring& plan)
+  {
+    const std::size_t n = plan.number_of_vertices();
+    points_.resize(n);
+    normals_.resize(n);
+    metrics_.resize(n);
+    locations_.resize(n);
+    origin_.resize(n);
+    active_.resize(n);
+    for_each_face([&](Index f) {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        const Index v = mesh_.corner[h];
+        if (mesh_.outgoing[v] == h) write(plan.vertex(v), surface_.vertex(v), surface_.origin[v], surface_.active[v]);
+        if (plan.is_split(h) && mesh_.is_edge_owner(h))
+          write(plan.midpoint(h), surface_.place(surface_.middle(h)), no_index, std::uint8_t(0xff));
+      }
+    });
+  }
+
+  void write(Index v, const Placed_vertex<Metric>& p, Index origin, std::uint8_t active)
+  {
+    locations_[v] = p.location;
+    points_[v] = p.point;
+    normals_[v] = p.normal;
+    metrics_[v] = p.metric;
+    origin_[v] = origin;
+    active_[v] = active;
+  }
+
+  Vector_3 new_normal(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels) const
+  {
+    const Vector_3& p = points_[plan.vertex_of_label(f, labels[0])];
+    return (points_[plan.vertex_of_label(f, labels[1])] - p).cross(points_[plan.vertex_of_label(f, labels[2])] - p);
+  }
+
+  /// Unmarks the edges of faces with a child that turns away from its parent; whether there was one.
+  bool take_back_marks_of_bad_faces(const Restructuring& plan)
+  {
+    bad_.assign(mesh_.number_of_faces(), 0);
+    for_each_face([&](Index f) {
+      bad_[f] = codes_[f] != 0 && !are_children_upright(plan, f, codes_[f]);
+    });
+    if (count_if(execution_, bad_.size(), [&](std::size_t f) { return bad_[f] != 0; }) == 0) return false;
+    for_each_face([&](Index f) {
+      for (Index i = 0; i < 3; ++i) {
+        const Index t = mesh_.twin[3 * f + i];
+        if (bad_[f] || (t != no_index && bad_[t / 3])) codes_[f] = std::uint8_t(codes_[f] & ~(1u << i));
+      }
+    });
+    return true;
+  }
+
+  /// Of the two ways to cut the quadrilateral that two marks leave, takes the one with the better worst face.
+  void choose_diagonals(const Restructuring& plan)
+  {
+    for_each_face([&](Index f) {
+      const std::uint8_t marks = codes_[f];
+      if (marks != 3 && marks != 5 && marks != 6) return;
+      const std::uint8_t other = std::uint8_t(marks | 8);
+      if (worst_child(plan, f, other) > worst_child(plan, f, marks) && are_children_upright(plan, f, other))
+        codes_[f] = other;
+    });
+  }
+
+  bool are_children_upright(const Restructuring& plan, Index f, std::uint8_t code) const
+  {
+    const auto& pattern = internal::Split_pattern::of(code);
+    const Index h = 3 * f;
+    const Vector_3 parent = surface_.normal(mesh_.corner[h], mesh_.corner[h + 1], mesh_.corner[h + 2]);
+    for (std::size_t c = 0; c < std::size_t(pattern.number_of_children); ++c)
+      if (!(new_normal(plan, f, pattern.child[c]).dot(parent) > 0)) return false;
+    return true;
+  }
+
+  double worst_child(const Restructuring& plan, Index f, std::uint8_t code) const
+  {
+    double worst = 1;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto& labels = internal::Split_pattern::of(code).child[c];
+      const Index a = plan.vertex_of_label(f, labels[0]), b = plan.vertex_of_label(f, labels[1]),
+                  d = plan.vertex_of_label(f, labels[2]);
+      worst = (std::min)(worst, face_quality(metrics_[a], metrics_[b], metrics_[d], points_[b] - points_[a],
+                                             points_[d] - points_[a]));
+    }
+    return worst;
+  }
+
+  void commit(const Restructuring& plan)
+  {
+    mesh_ = plan.build(execution_);
+    surface_.points.swap(points_);
+    surface_.normals.swap(normals_);
+    surface_.metrics.swap(metrics_);
+    surface_.locations.swap(locations_);
+    surface_.origin.swap(origin_);
+    surface_.active.swap(active_);
+  }
+
+  const Execution& execution_;
+  Surface& surface_;
+  Mesh_view& mesh_;
+  std::vector<std::uint8_t> codes_, bad_;
+  std::vector<Vector_3> points_, normals_;
+  std::vector<Metric> metrics_;
+  std::vector<Location> locations_;
+  std::vector<Index> origin_;
+  std::vector<std::uint8_t> active_;
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_REFINEMENT_H

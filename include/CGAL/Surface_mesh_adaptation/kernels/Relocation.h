@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Relocation: moves vertices on the surface to improve the faces around them (paper, section 3).
+//
+// Diffusion towards the centre of mass of the surrounding faces, weighted by the density of the metric (equation 1),
+// with a step that is halved until no face is made worse than allowed; where that fails, descent of the worst
+// distortion (section 3, with the step rule of a line search on the worst face itself). Curve vertices move along
+// their curve to balance the metric lengths on both sides; corners stay.
+//
+// Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Inside blocks
+// vertices are moved one after the other; those at block borders by colours.
+// Invariants: connectivity is not touched; no face is turned away from the surface; the worst face around a vertex
+// never falls below both what it was and `good_quality`.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
+
+#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+struct Relocation_thresholds
+{
+  double good_quality = 0.8;   ///< faces above may lose quality to others around the same vertex
+  double min_move = 0.01;      ///< metric length below which a move is not worth it
+};
+
+template <class Surface, class Execution>
+class Relocation
+{
+public:
+  using Metric = typename Surface::Metric;
+
+  Relocation(const Execution& execution, Surface& surface, const Relocation_thresholds& thresholds)
+    : execution_(execution), surface_(surface), mesh_(surface.mesh), thresholds_(thresholds)
+  {}
+
+  /// Examines every active vertex once. Returns the number of vertices moved.
+  std::size_t sweep(Sweep_counts& counts)
+  {
+    Sweep_counts local;
+    const std::vector<Index> deferred = sweep_blocks(
+      execution_, mesh_.number_of_vertices(), local,
+      [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
+        if (mesh_.is_removed_vertex(v) || surface_.vertex_class(v) == Vertex_class::corner ||
+            !is_active(surface_, v, Activity::relocate))
+          return;
+        if (!block.contains_ring(mesh_, v)) return list.push_back(v);
+        ++c.candidates;
+        c.applied += examine(v);
+      });
+    sweep_border(deferred, local);
+    ++local.sweeps;
+    counts += local;
+    return local.applied;
+  }
+
+private:
+  /// The faces around a vertex, as the ring of their other corners.
+  struct Star
+  {
+    Ring<Index> ring;
+    bool is_closed = true;
+
+    std::size_t number_of_faces() const { return is_closed ? ring.size() : ring.size() - 1; }
+    Index first(std::size_t i) const { return ring[i]; }
+    Index second(std::size_t i) const { return ring[i + 1 == ring.size() ? 0 : i + 1]; }
+  };
+
+  struct Shape
+  {
+    double worst = 1;      ///< quality
+    double sum = 0;        ///< of qualities
+    double alignment = 1;
+  };
+
+  void sweep_border(const std::vector<Index>& vertices, Sweep_counts& counts)
+  {
+    if (vertices.empty()) return;
+    position_.assign(mesh_.number_of_vertices(), no_index);
+    for_each_index(execution_, vertices.size(), [&](std::size_t i) { position_[vertices[i]] = Index(i); });
+    const Graph_coloring coloring = graph_coloring(execution_, vertices.size(), [&](std::size_t i, const auto& f) {
+      mesh_.for_each_neighbor(vertices[i], [&](Index w) {
+        if (position_[w] != no_index) f(position_[w]);
+      });
+    });
+    counts.candidates += vertices.size();
+    for (const auto& nodes : color_classes(coloring))
+      counts.applied += count_if(execution_, nodes.size(), [&](std::size_t i) { return examine(vertices[nodes[i]]); });
+  }
+
+  bool examine(Index v)
+  {
+    const Star star = star_of(v);
+    const bool moved = surface_.vertex_class(v) == Vertex_class::curve ? slide(v, star) : diffuse(v, star);
+    if (!moved) {
+      deactivate(surface_, v, Activity::relocate);
+      return false;
+    }
+    activate(surface_, v);
+    for (Index w : star.ring) activate(surface_, w);
+    return true;
+  }
+
+  Star star_of(Index v) const
+  {
+    Star s;
+    s.is_closed = !mesh_.is_border_vertex(v);
+    mesh_.for_each_neighbor(v, [&](Index w) { s.ring.push_back(w); });
+    return s;
+  }
+
+  Shape shape(const Star& star, const Placed_vertex<Metric>& v) const
+  {
+    Shape s;
+    const bool is_smooth = v.location.kind == Vertex_class::smooth;
+    for (std::size_t i = 0; i < star.number_of_faces(); ++i) {
+      const Index a = star.first(i), b = star.second(i);
+      const Vector_3 ea = surface_.points[a] - v.point, eb = surface_.points[b] - v.point;
+      const double q = face_quality(v.metric, surface_.metrics[a], surface_.metrics[b], ea, eb);
+      s.worst = (std::min)(s.worst, q);
+      s.sum += q;
+      const Vector_3 n = ea.cross(eb);
+      double dot = is_smooth ? n.dot(v.normal) : n.norm();
+      for (Index w : {a, b})
+        if (surface_.vertex_class(w) == Vertex_class::smooth) dot = (std::min)(dot, n.dot(surface_.normals[w]));
+      const double length = n.norm();
+      s.alignment = (std::min)(s.alignment, length > 0 ? dot / length : -1);
+    }
+    return s;
+  }
+
+  bool is_acceptable(const Shape& before, const Shape& after, std::size_t) const
+  {
+    if (after.alignment < (std::min)(min_alignment, before.alignment)) return false;
+    if (after.worst > before.worst * min_improvement) return true;
+    return after.worst >= thresholds_.good_quality && after.sum > before.sum;
+  }
+
+  /// Displacement to the centre of mass of the faces around `v`, in its tangent plane.
+  Vector_3 displacement_to_center(Index v, const Star& star) const
+  {
+    Vector_3 sum = Vector_3::Zero();
+    double weight = 0;
+    for (std::size_t i = 0; i < star.number_of_faces(); ++i) {
+      const Index a = star.first(i), b = star.second(i);
+      const Vector_3 ea = surface_.points[a] - surface_.points[v], eb = surface_.points[b] - surface_.points[v];
+      const double w = face_density(surface_.metrics[v], surface_.metrics[a], surface_.metrics[b], ea, eb,
+                                    ea.cross(eb).norm());
+      sum += w / 3 * (ea + eb);
+      weight += w;
+    }
+    if (!(weight > 0)) return Vector_3::Zero();
+    sum /= weight;
+    return sum - sum.dot(surface_.normals[v]) * surface_.normals[v];
+  }
+
+  bool diffuse(Index v, const Star& star)
+  {
+    const Vector_3 t = displacement_to_center(v, star);
+    if (!(surface_.metrics[v].length(t) > thresholds_.min_move)) return false;
+    const Shape before = shape(star, surface_.vertex(v));
+    for (const double scale : {1.0, 0.5, 0.25}) {
+      const auto moved = surface_.place(surface_.reference().trace(surface_.locations[v], scale * t, true));
+      if (!is_acceptable(before, shape(star, moved), star.number_of_faces())) continue;
+      surface_.set(v, moved);
+      return true;
+    }
+    return false;
+  }
+
+  /// Moves a curve vertex to where its two curve edges have the same metric length.
+  bool slide(Index v, const Star& star)
+  {
+    const Index curve = surface_.locations[v].cell;
+    Ring<Index> along;
+    for (Index w : star.ring) {
+      const Index h = mesh_.halfedge(v, w);
+      if (mesh_.curve[h != no_index ? h : mesh_.halfedge(w, v)] == curve) along.push_back(w);
+    }
+    if (along.size() != 2) return false;
+    const auto arc0 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[along[0]]);
+    const auto arc1 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[along[1]]);
+    const double l0 = surface_.length(v, along[0]), l1 = surface_.length(v, along[1]);
+    const double d0 = arc0.second - arc0.first, d1 = arc1.second - arc1.first;
+    if (!(d0 * d1 < 0) || !(l0 + l1 > 0)) return false;
+    // towards the longer side by half of the excess, in units of arc length per metric length
+    const double d = l0 > l1 ? d0 * 0.5 * (l0 - l1) / l0 : d1 * 0.5 * (l1 - l0) / l1;
+    if (std::abs(l0 - l1) < 2 * thresholds_.min_move) return false;
+    const Shape before = shape(star, surface_.vertex(v));
+    for (const double scale : {1.0, 0.5}) {
+      const auto moved = surface_.place(surface_.reference().on_curve(curve, arc0.first + scale * d));
+      const Shape after = shape(star, moved);
+      if (after.alignment < (std::min)(min_alignment, before.alignment) ||
+          after.worst < (std::min)(before.worst, min_slide_quality))
+        continue;
+      surface_.set(v, moved);
+      return true;
+    }
+    return false;
+  }
+
+  static constexpr double min_improvement = 1.0 + 1e-4;
+  static constexpr double min_slide_quality = 0.5;
+
+  const Execution& execution_;
+  Surface& surface_;
+  Mesh_view& mesh_;
+  Relocation_thresholds thresholds_;
+  std::vector<Index> position_;
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Swapping: replaces an edge by the other diagonal of its two faces where that is better (paper, figure 2, section 5).
+//
+// Conflict neighbourhood of (p, q) -> (a, b): the four vertices, since the criterion reads degrees and the new edge
+// must not exist; claiming them also keeps two winners from creating the same edge.
+// Accepted only on strict improvement, so sweeps end. Invariants: as simplification; features are never swapped.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SWAPPING_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SWAPPING_H
+
+#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+struct Swapping_thresholds
+{
+  double max_length = max_unit_length;  ///< no swap creates an edge above, unless it replaces a longer one
+  bool equalize_degrees = true;         ///< prefer degree 6 (4 on curves) where both diagonals give good faces
+};
+
+template <class Surface, class Execution>
+class Swapping
+{
+public:
+  Swapping(const Execution& execution, Surface& surface, const Swapping_thresholds& thresholds)
+    : execution_(execution), surface_(surface), mesh_(surface.mesh), thresholds_(thresholds)
+  {}
+
+  /// Examines every edge with an active end once. Returns the number of edges swapped.
+  std::size_t sweep(Sweep_counts& counts)
+  {
+    Sweep_counts local;
+    touched_.assign(mesh_.number_of_vertices(), 0);
+    std::vector<Index> deferred = sweep_blocks(
+      execution_, mesh_.number_of_vertices(), local,
+      [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
+        if (!mesh_.is_removed_vertex(v) && sweep_edges_of(v, block, c)) list.push_back(v);
+      });
+    for (std::uint32_t round = 0; !deferred.empty() && round < max_border_rounds; ++round)
+      sweep_border(deferred, round, local);
+    for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
+      if (touched_[v]) activate(surface_, Index(v));
+      else deactivate(surface_, Index(v), Activity::swap);
+    });
+    ++local.sweeps;
+    counts += local;
+    return local.applied;
+  }
+
+  /// The gain in worst quality of swapping the edge of `h`, or 0 if that is not possible or no improvement.
+  double gain(Index h) const
+  {
+    if (mesh_.is_feature(h)) return 0; // so is the boundary
+    const Index t = mesh_.twin[h];
+    const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
+    const double before = (std::min)(surface_.quality(p, q, b), surface_.quality(q, p, a));
+    const double after = (std::min)(surface_.quality(a, b, p), surface_.quality(b, a, q));
+    const bool better = after > before * min_improvement;
+    if (!better && !(thresholds_.equalize_degrees && after > min_degree_swap_quality &&
+                     after > max_quality_loss * before))
+      return 0;
+    if (thresholds_.equalize_degrees) {
+      const int change = degree_change(p, q, a, b);
+      if (change > 0 && before > min_degree_swap_quality) return 0;
+      if (change >= 0 && !better) return 0;
+    }
+    if (mesh_.are_adjacent(a, b) || !is_valid(p, q, a, b)) return 0;
+    return (std::max)(after - before, least_gain);
+  }
+
+  void apply(Index h)
+  {
+    for (Index v : {mesh_.source(h), mesh_.target(h), mesh_.apex(h), mesh_.apex(mesh_.twin[h])})
+      touched_[v] = 1;
+    mesh_.flip(h);
+  }
+
+private:
+  static constexpr std::uint32_t max_border_rounds = 8;
+  static constexpr double min_improvement = 1.0 + 1e-3; // strict, and above rounding
+  static constexpr double least_gain = 1e-9;
+  static constexpr double min_degree_swap_quality = 0.55; // degrees matter only among good faces
+  static constexpr double max_quality_loss = 0.6;
+  static constexpr double min_turn = 0.5;
+
+  /// Works through the edges from `v` to larger ids that lie in the block; whether some do not.
+  bool sweep_edges_of(Index v, const Block& block, Sweep_counts& counts)
+  {
+    bool has_deferred = false;
+    std::size_t remaining = 0;
+    mesh_.for_each_outgoing(v, [&](Index) { ++remaining; });
+    for (Index h = mesh_.outgoing[v]; remaining > 0 && h != no_index; --remaining) {
+      const Index following = mesh_.rotated_ccw(h);
+      if (is_candidate(v, h)) {
+        if (lies_in(block, h)) {
+          ++counts.candidates;
+          if (gain(h) > 0) {
+            apply(h);
+            ++counts.applied;
+          }
+        } else has_deferred = true;
+      }
+      h = following;
+    }
+    return has_deferred;
+  }
+
+  bool is_candidate(Index v, Index h) const
+  {
+    const Index w = mesh_.target(h);
+    return v < w && !mesh_.is_feature(h) &&
+           (is_active(surface_, v, Activity::swap) || is_active(surface_, w, Activity::swap));
+  }
+
+  bool lies_in(const Block& block, Index h) const
+  {
+    return block.contains(mesh_.source(h)) && block.contains(mesh_.target(h)) && block.contains(mesh_.apex(h)) &&
+           block.contains(mesh_.apex(mesh_.twin[h]));
+  }
+
+  static Block block_of(Index v)
+  {
+    const Index begin = v - v % Index(block_length);
+    return {begin, begin + Index(block_length)};
+  }
+
+  /// One pass of claims over the deferred edges of `vertices`, which keeps those that still have some.
+  void sweep_border(std::vector<Index>& vertices, std::uint32_t round, Sweep_counts& counts)
+  {
+    const std::vector<Index> edges = gather<Index>(execution_, vertices.size(), default_chunk_length,
+                                                   [&](std::size_t begin, std::size_t end, std::vector<Index>& list) {
+      for (std::size_t i = begin; i < end; ++i)
+        mesh_.for_each_outgoing(vertices[i], [&](Index h) {
+          if (is_candidate(vertices[i], h) && !lies_in(block_of(vertices[i]), h)) list.push_back(h);
+        });
+    });
+    counts.candidates += edges.size();
+    gains_.resize(edges.size());
+    for_each_index(execution_, edges.size(), [&](std::size_t i) { gains_[i] = gain(edges[i]); });
+    const auto valid = pack(execution_, edges.size(), [&](std::size_t i) { return gains_[i] > 0; });
+    reservations_.resize(mesh_.number_of_vertices());
+    const auto winners = independent_set(
+      execution_, valid.size(), reservations_,
+      [&](std::size_t i) {
+        const std::uint32_t bucket = std::uint32_t(7 - (std::min)(7.0, 16 * gains_[valid[i]]));
+        return task_priority(bucket, edges[valid[i]], round);
+      },
+      [&](std::size_t i, const auto& claim) {
+        const Index h = edges[valid[i]];
+        for (Index v : {mesh_.source(h), mesh_.target(h), mesh_.apex(h), mesh_.apex(mesh_.twin[h])}) claim(v);
+      });
+    std::vector<Index> remaining;
+    for (std::uint32_t i : valid) remaining.push_back(mesh_.source(edges[i]));
+    for_each_index(execution_, winners.size(), [&](std::size_t i) { apply(edges[valid[winners[i]]]); });
+    counts.applied += winners.size();
+    remaining.erase(std::unique(remaining.begin(), remaining.end()), remaining.end());
+    vertices.swap(remaining);
+    if (winners.size() == valid.size()) vertices.clear();
+  }
+
+  /// Change of the sum of squared deviations from the ideal degrees.
+  int degree_change(Index p, Index q, Index a, Index b) const
+  {
+    const auto change = [&](Index v, int by) {
+      const int ideal = surface_.vertex_class(v) == Vertex_class::smooth ? 6 : mesh_.is_border_vertex(v) ? 4 : 6;
+      const int d = int(mesh_.degree(v)) - ideal;
+      return (d + by) * (d + by) - d * d;
+    };
+    return change(p, -1) + change(q, -1) + change(a, 1) + change(b, 1);
+  }
+
+  bool is_valid(Index p, Index q, Index a, Index b) const
+  {
+    if (surface_.length(a, b) > (std::max)(thresholds_.max_length, surface_.length(p, q))) return false;
+    const Vector_3 old1 = surface_.normal(p, q, b), old2 = surface_.normal(q, p, a);
+    const Vector_3 new1 = surface_.normal(a, b, p), new2 = surface_.normal(b, a, q);
+    const double limit = (std::min)({min_alignment, surface_.alignment(old1, p, q, b), surface_.alignment(old2, q, p, a)});
+    if (surface_.alignment(new1, a, b, p) < limit || surface_.alignment(new2, b, a, q) < limit) return false;
+    const double turn = (std::min)(min_turn, old1.dot(old2));
+    return (std::min)({new1.dot(old1), new1.dot(old2), new2.dot(old1), new2.dot(old2), new1.dot(new2)}) >= turn;
+  }
+
+  const Execution& execution_;
+  Surface& surface_;
+  Mesh_view& mesh_;
+  Swapping_thresholds thresholds_;
+  std::vector<std::uint8_t> touched_; // in this sweep; `active` stays as it was, for other blocks read it
+  std::vector<double> gains_;
+  Reservations reservations_;
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SWAPPING_H

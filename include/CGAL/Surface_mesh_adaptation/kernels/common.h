@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the kernels share: which vertices have something left to examine, and how far faces may turn.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_COMMON_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_COMMON_H
+
+#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+
+#include <boost/atomic/atomic_ref.hpp>
+
+#include <cstdint>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// A bit for each kernel in `Adapted_surface::active`: whether it has to look at the vertex again.
+enum class Activity : std::uint8_t { simplify = 1, swap = 2, relocate = 4 };
+
+/// Least cosine between a face and the surface normals at its corners that an operation may create, unless one of the
+/// faces it replaces was worse: 60 degrees.
+constexpr double min_alignment = 0.5;
+
+template <class Surface>
+bool is_active(const Surface& surface, Index v, Activity kernel)
+{
+  return (surface.active[v] & std::uint8_t(kernel)) != 0;
+}
+
+/// Something changed at `v`: all kernels have to look again. Tasks of one sweep may share `v`, and all write the same.
+template <class Surface>
+void activate(Surface& surface, Index v)
+{
+  boost::atomic_ref<std::uint8_t>(surface.active[v]).store(0xff, boost::memory_order_relaxed);
+}
+
+/// `kernel` looked at `v` and left it. \pre no task that runs concurrently activates `v`
+template <class Surface>
+void deactivate(Surface& surface, Index v, Activity kernel)
+{
+  surface.active[v] = std::uint8_t(surface.active[v] & ~std::uint8_t(kernel));
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_COMMON_H

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Named parameters of the package, beside those of CGAL that it also understands. A pack made here converts to
+// CGAL's, and a plain CGAL pack is accepted wherever one of ours is.
+//
+//     namespace params = CGAL::Surface_mesh_adaptation::parameters;
+//     adapt_surface_mesh(mesh, field, params::feature_angle(60).number_of_iterations(4));
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_PARAMETERS_H
+#define CGAL_SURFACE_MESH_ADAPTATION_PARAMETERS_H
+
+#include <CGAL/Named_function_parameters.h>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal_np {
+
+enum feature_angle_t { feature_angle };
+enum detect_features_t { detect_features };
+enum output_metric_map_t { output_metric_map };
+enum surface_reconstruction_t { surface_reconstruction };
+
+} // namespace internal_np
+
+/// A CGAL named-parameter pack that can be continued with the package's own parameters.
+template <class T, class Tag, class Base = CGAL::internal_np::No_property>
+struct Adaptation_parameters : CGAL::Named_function_parameters<T, Tag, Base>
+{
+  using self = CGAL::Named_function_parameters<T, Tag, Base>;
+
+  Adaptation_parameters() = default;
+  explicit Adaptation_parameters(const T& value) : self(value) {}
+  Adaptation_parameters(const T& value, const Base& base_pack) : self(value, base_pack) {}
+
+#define CGAL_SMA_NAMED_PARAMETER(TAG, NAME)                                                     \
+  template <class K>                                                                            \
+  Adaptation_parameters<K, TAG, self> NAME(const K& value) const                                \
+  {                                                                                             \
+    return Adaptation_parameters<K, TAG, self>(value, *this);                                   \
+  }
+#include <CGAL/Surface_mesh_adaptation/internal/parameters_interface.h>
+#undef CGAL_SMA_NAMED_PARAMETER
+};
+
+namespace parameters {
+
+inline CGAL::parameters::Default_named_parameters default_values() { return CGAL::parameters::default_values(); }
+
+#define CGAL_SMA_NAMED_PARAMETER(TAG, NAME)                                                     \
+  template <class K>                                                                            \
+  Adaptation_parameters<K, TAG> NAME(const K& value)                                            \
+  {                                                                                             \
+    return Adaptation_parameters<K, TAG>(value);                                                \
+  }
+#include <CGAL/Surface_mesh_adaptation/internal/parameters_interface.h>
+#undef CGAL_SMA_NAMED_PARAMETER
+
+} // namespace parameters
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_PARAMETERS_H

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_RELOCATE_H
+#define CGAL_SURFACE_MESH_ADAPTATION_RELOCATE_H
+
+#include <CGAL/Surface_mesh_adaptation/internal/run_kernel.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Relocation.h>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/*!
+Moves vertices on the surface to improve the faces around them (paper, section 3).
+
+\param execution, mesh, field, np as for `adapt_surface_mesh`; `number_of_iterations` is the largest number of sweeps
+       (default: 10), and the visitor's `go_on` is asked after each of them
+
+\returns the number of moves
+\throws an exception derived from `Adaptation_error`, before the mesh is changed
+*/
+template <class Execution, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
+auto relocate(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
+              const NamedParameters& np = CGAL::parameters::default_values()) -> decltype(execution.concurrency(), std::size_t())
+{
+  return internal::run_kernel(execution, mesh, field, np, 10, [](const auto& policy, auto& surface) {
+    return Relocation(policy, surface, Relocation_thresholds());
+  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });
+}
+
+/// The same with the policy as a template parameter, as for `adapt_surface_mesh`.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = std::enable_if_t<!internal::is_execution<TriangleMesh>>>
+std::size_t relocate(TriangleMesh& mesh, const MetricField& field,
+                     const NamedParameters& np = CGAL::parameters::default_values())
+{
+  return relocate(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_RELOCATE_H

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_SIMPLIFY_H
+#define CGAL_SURFACE_MESH_ADAPTATION_SIMPLIFY_H
+
+#include <CGAL/Surface_mesh_adaptation/internal/run_kernel.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Simplification.h>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/*!
+Collapses the edges that are shorter than `1/sqrt 2` in the metric where that makes no edge too long, no face bad and
+keeps the features (paper, section 5).
+
+\param execution, mesh, field, np as for `adapt_surface_mesh`; `number_of_iterations` is the largest number of sweeps
+       (default: 24), and the visitor's `go_on` is asked after each of them
+
+\returns the number of vertices removed
+\throws an exception derived from `Adaptation_error`, before the mesh is changed
+*/
+template <class Execution, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters>
+auto simplify(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
+              const NamedParameters& np = CGAL::parameters::default_values()) -> decltype(execution.concurrency(), std::size_t())
+{
+  return internal::run_kernel(execution, mesh, field, np, 24, [](const auto& policy, auto& surface) {
+    return Simplification(policy, surface, Simplification_thresholds());
+  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });
+}
+
+/// The same with the policy as a template parameter, as for `adapt_surface_mesh`.
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = std::enable_if_t<!internal::is_execution<TriangleMesh>>>
+std::size_t simplify(TriangleMesh& mesh, const MetricField& field,
+                     const NamedParameters& np = CGAL::parameters::default_values())
+{
+  return simplify(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_SIMPLIFY_H
