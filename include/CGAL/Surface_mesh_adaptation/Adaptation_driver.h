@@ -40,7 +40,7 @@ public:
       report_.after_round.push_back(mesh_statistics(execution_, surface_));
       visitor_.round_done(round_, report_.after_round.back());
       ++report_.rounds;
-      if (double(changed) < converged_share * double(report_.after_round.back().vertices)) break;
+      if (is_negligible(changed)) break;
     }
     refinement_.compact();
     report_.final = report_.after_round.empty() ? report_.initial : report_.after_round.back();
@@ -52,47 +52,68 @@ private:
   /// Returns the number of operations that changed the connectivity.
   std::size_t do_round()
   {
-    std::size_t changed = 0;
-    changed += run_kernel("refine", max_refine_sweeps, 0, [&](Sweep_counts& c) {
-      return refinement_.sweep(max_unit_length, c);
-    });
-    changed += run_kernel("simplify", max_simplify_sweeps, sweep_share, [&](Sweep_counts& c) {
-      return simplification_.sweep(c);
-    });
-    changed += run_kernel("swap", max_swap_sweeps, sweep_share, [&](Sweep_counts& c) { return swapping_.sweep(c); });
-    run_kernel("relocate", max_relocate_sweeps, sweep_share, [&](Sweep_counts& c) { return relocation_.sweep(c); });
+    const auto refine = [&](Sweep_counts& c) { return refinement_.sweep(max_unit_length, c); };
+    const auto simplify = [&](Sweep_counts& c) { return simplification_.sweep(c); };
+    const auto swap = [&](Sweep_counts& c) { return swapping_.sweep(c); };
+    const auto relocate = [&](Sweep_counts& c) { return relocation_.sweep(c); };
+
+    std::size_t changed = 0, split = 0;
+    // Long edges of needles are halved many times over: unless what this leaves behind is mended in between,
+    // the pieces of one needle fill the surface with others.
+    for (std::size_t i = 0; i < max_refine_sweeps; ++i) {
+      changed += split = run_kernel("refine", 1, refine);
+      if (is_negligible(split)) break;
+      changed += run_kernel("simplify", 1, simplify);
+      changed += run_kernel("swap", 1, swap);
+    }
+    changed += run_kernel("simplify", max_simplify_sweeps, simplify);
+    changed += run_kernel("swap", max_swap_sweeps, swap);
+    run_kernel("relocate", max_relocate_sweeps, relocate);
     return changed;
   }
 
-  /// Repeats `sweep` until it applies to at most `share` of the vertices.
+  /// Whether so few operations are left that they can wait for the next round.
+  bool is_negligible(std::size_t operations) const
+  {
+    return double(operations) <= negligible_share * double(surface_.mesh.number_of_vertices());
+  }
+
+  /// Repeats `sweep` until there is little left to do.
   template <class Sweep>
-  std::size_t run_kernel(const std::string& name, std::size_t max_sweeps, double share, const Sweep& sweep)
+  std::size_t run_kernel(const std::string& name, std::size_t max_sweeps, const Sweep& sweep)
   {
     if (report_.stopped) return 0;
     const auto start = std::chrono::steady_clock::now();
     Sweep_counts counts;
     for (std::size_t i = 0; i < max_sweeps; ++i)
-      if (double(sweep(counts)) <= share * double(surface_.mesh.number_of_vertices())) break;
-    Kernel_report k;
-    k.kernel = name;
-    k.round = round_;
-    k.sweeps = counts.sweeps;
-    k.candidates = counts.candidates;
-    k.applied = counts.applied;
-    k.deferred = counts.deferred;
-    k.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    report_.kernels.push_back(k);
+      if (is_negligible(sweep(counts))) break;
+    Kernel_report& k = entry(name);
+    k.sweeps += counts.sweeps;
+    k.candidates += counts.candidates;
+    k.applied += counts.applied;
+    k.deferred += counts.deferred;
+    k.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     visitor_.kernel_done(k);
     report_.stopped = !visitor_.go_on();
     return counts.applied;
+  }
+
+  /// The row of the report for a kernel in this round.
+  Kernel_report& entry(const std::string& name)
+  {
+    for (Kernel_report& k : report_.kernels)
+      if (k.round == round_ && k.kernel == name) return k;
+    report_.kernels.emplace_back();
+    report_.kernels.back().kernel = name;
+    report_.kernels.back().round = round_;
+    return report_.kernels.back();
   }
 
   static constexpr std::size_t max_refine_sweeps = 24;   // each halves the edges
   static constexpr std::size_t max_simplify_sweeps = 12;
   static constexpr std::size_t max_swap_sweeps = 4;
   static constexpr std::size_t max_relocate_sweeps = 4;
-  static constexpr double sweep_share = 0.002;           // a sweep that changes less is not worth another
-  static constexpr double converged_share = 0.002;
+  static constexpr double negligible_share = 0.002;
 
   const Execution& execution_;
   Surface& surface_;

@@ -117,7 +117,8 @@ public:
   }
 
   /// Where an edge is split: the middle of its arc on a feature curve, else the point of the surface next to the middle
-  /// of the edge, reached from whatever neighbouring vertex lies in the same smooth sector.
+  /// of the edge, reached from a neighbouring vertex in the same smooth sector. Where the walk from one of them ends at
+  /// a feature that lies in between, the next one is tried.
   Location middle(Index h) const
   {
     const Index a = (std::min)(mesh.source(h), mesh.target(h)), b = (std::max)(mesh.source(h), mesh.target(h));
@@ -126,8 +127,21 @@ public:
       return reference_->on_curve(mesh.curve[h], 0.5 * (arc.first + arc.second));
     }
     const Vector_3 target = 0.5 * (points[a] + points[b]);
-    const double precision = split_precision * (points[b] - points[a]).norm();
-    return reference_->locate(smooth_start(h, a, b, target), target, precision);
+    const double length = (points[b] - points[a]).norm();
+    Location best;
+    double best_distance = -1;
+    const auto try_from = [&](const Location& start) {
+      const Location l = reference_->locate(start, target, split_precision * length);
+      const double distance = (reference_->evaluate(l).position - target).norm();
+      if (best_distance >= 0 && distance >= best_distance) return;
+      best = l;
+      best_distance = distance;
+    };
+    for (Index v : {a, b, mesh.apex(h), mesh.apex(mesh.twin[h])})
+      if (vertex_class(v) == Vertex_class::smooth && !(best_distance >= 0 && best_distance <= split_distance * length))
+        try_from(locations[v]);
+    if (best_distance < 0) try_from(reference_->smooth_location_near(locations[a], target));
+    return best;
   }
 
   void resize_vertices(std::size_t n)
@@ -142,13 +156,7 @@ public:
 
 private:
   static constexpr double split_precision = 0.02; // of the edge: later moves undo the rest
-
-  Location smooth_start(Index h, Index a, Index b, const Vector_3& target) const
-  {
-    for (Index v : {a, b, mesh.apex(h), mesh.apex(mesh.twin[h])})
-      if (vertex_class(v) == Vertex_class::smooth) return locations[v];
-    return reference_->smooth_location_near(locations[a], target);
-  }
+  static constexpr double split_distance = 0.2;   // of the edge: more means that the walk did not get there
 
   const Reference* reference_;
   const Background* background_;

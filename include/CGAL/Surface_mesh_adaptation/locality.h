@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Renumbers an imported mesh along a curve that fills space, if its own order is poor.
+// Renumbers an imported mesh along a curve that fills space.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_LOCALITY_H
 #define CGAL_SURFACE_MESH_ADAPTATION_LOCALITY_H
 
 #include <CGAL/Surface_mesh_adaptation/Features.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
-#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 
 #include <algorithm>
@@ -47,16 +46,6 @@ inline std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x)
   for (int bit = hilbert_bits - 1; bit >= 0; --bit)
     for (const std::uint32_t xi : x) key = (key << 1) | (xi >> bit & 1u);
   return key;
-}
-
-/// Share of the halfedges whose ends lie in the same block.
-template <class Execution>
-double share_inside_blocks(const Execution& execution, const Mesh_view& mesh)
-{
-  const std::size_t n = mesh.number_of_halfedges();
-  return double(count_if(execution, n, [&](std::size_t h) {
-    return mesh.source(Index(h)) / block_length == mesh.target(Index(h)) / block_length;
-  })) / double(n);
 }
 
 /// The numbers `0 .. n - 1` sorted by key, ties by number. Blocks are sorted in parallel, then merged pairwise.
@@ -118,15 +107,12 @@ std::vector<Index> hilbert_order(const Execution& execution, const std::vector<V
   return sorted_by_key(execution, key);
 }
 
-/// Below this share of edges inside blocks an order counts as poor; a Hilbert order reaches 0.93.
-constexpr double good_locality = 0.85;
-
-/// Renumbers vertices along the Hilbert curve, and faces by their smallest vertex, unless the order is good already.
+/// Renumbers vertices along the Hilbert curve, and faces by their smallest vertex. Always: an order that looks good
+/// at the scale of the input, such as long strips, is a poor one once the strips are refined.
 template <class Execution, class Import>
 void improve_locality(const Execution& execution, Import& imported, Feature_parameters& features)
 {
   Mesh_view& mesh = imported.mesh;
-  if (share_inside_blocks(execution, mesh) >= good_locality) return;
   const std::vector<Index> vertex_order = hilbert_order(execution, imported.points);
   const std::vector<Index> new_vertex = inverse(execution, vertex_order);
   std::vector<std::uint64_t> face_key(mesh.number_of_faces());

@@ -4,8 +4,8 @@
 //
 // A sweep marks edges, evaluates their midpoints on the surface, and cuts every face by the pattern of its marks, all
 // at once and without a conflict graph: a new vertex is written by the face that owns its edge, a new face by its
-// parent. A face of which a child would be inverted takes its marks back. The sweep also closes the holes that
-// simplification left.
+// parent. A face of which a child would be inverted, or no smaller than itself, takes its marks back. The sweep also
+// closes the holes that simplification left.
 //
 // Invariants: simplicial 2-manifold, features, boundary cycles. Work: O(n) a sweep; span: O(log n).
 
@@ -65,6 +65,7 @@ public:
   }
 
 private:
+  static constexpr double max_half = 0.8;  // of an edge: the middle of a bulging arc lies well within
   static constexpr Index max_number_of_faces = std::numeric_limits<std::int32_t>::max() / 3;
 
   template <class F>
@@ -130,12 +131,24 @@ private:
     return (points_[plan.vertex_of_label(f, labels[1])] - p).cross(points_[plan.vertex_of_label(f, labels[2])] - p);
   }
 
+  /// Whether the midpoints of the face lie between the ends of their edges: else splitting would go on for ever.
+  bool are_halves_shorter(const Restructuring& plan, Index f) const
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      if (!plan.is_split(h)) continue;
+      const Vector_3 &a = surface_.points[mesh_.source(h)], &b = surface_.points[mesh_.target(h)];
+      const Vector_3& m = points_[plan.midpoint(h)];
+      if ((std::max)((m - a).norm(), (m - b).norm()) > max_half * (b - a).norm()) return false;
+    }
+    return true;
+  }
+
   /// Unmarks the edges of faces with a child that turns away from its parent; whether there was one.
   bool take_back_marks_of_bad_faces(const Restructuring& plan)
   {
     bad_.assign(mesh_.number_of_faces(), 0);
     for_each_face([&](Index f) {
-      bad_[f] = codes_[f] != 0 && !are_children_upright(plan, f, codes_[f]);
+      bad_[f] = codes_[f] != 0 && !(are_halves_shorter(plan, f) && are_children_upright(plan, f, codes_[f]));
     });
     if (count_if(execution_, bad_.size(), [&](std::size_t f) { return bad_[f] != 0; }) == 0) return false;
     for_each_face([&](Index f) {

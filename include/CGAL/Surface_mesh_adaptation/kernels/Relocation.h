@@ -3,8 +3,7 @@
 // Relocation: moves vertices on the surface to improve the faces around them (paper, section 3).
 //
 // Diffusion towards the centre of mass of the surrounding faces, weighted by the density of the metric (equation 1),
-// with a step that is halved until no face is made worse than allowed; where that fails, descent of the worst
-// distortion (section 3, with the step rule of a line search on the worst face itself). Curve vertices move along
+// over-relaxed, with a step that is halved until no face is made worse than allowed. Curve vertices move along
 // their curve to balance the metric lengths on both sides; corners stay.
 //
 // Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Inside blocks
@@ -138,7 +137,7 @@ private:
     return s;
   }
 
-  bool is_acceptable(const Shape& before, const Shape& after, std::size_t) const
+  bool is_acceptable(const Shape& before, const Shape& after) const
   {
     if (after.alignment < (std::min)(min_alignment, before.alignment)) return false;
     if (after.worst > before.worst * min_improvement) return true;
@@ -168,9 +167,9 @@ private:
     const Vector_3 t = displacement_to_center(v, star);
     if (!(surface_.metrics[v].length(t) > thresholds_.min_move)) return false;
     const Shape before = shape(star, surface_.vertex(v));
-    for (const double scale : {1.0, 0.5, 0.25}) {
+    for (const double scale : {over_relaxation, over_relaxation / 2, over_relaxation / 4}) {
       const auto moved = surface_.place(surface_.reference().trace(surface_.locations[v], scale * t, true));
-      if (!is_acceptable(before, shape(star, moved), star.number_of_faces())) continue;
+      if (!is_acceptable(before, shape(star, moved))) continue;
       surface_.set(v, moved);
       return true;
     }
@@ -208,6 +207,7 @@ private:
     return false;
   }
 
+  static constexpr double over_relaxation = 1.9; // as in SOR: smooth errors over many faces die out several times faster
   static constexpr double min_improvement = 1.0 + 1e-4;
   static constexpr double min_slide_quality = 0.5;
 
