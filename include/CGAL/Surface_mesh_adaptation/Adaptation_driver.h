@@ -52,7 +52,9 @@ private:
   /// Returns the number of operations that changed the connectivity.
   std::size_t do_round()
   {
-    const auto refine = [&](Sweep_counts& c) { return refinement_.sweep(max_unit_length, c); };
+    const auto refine = [&](Sweep_counts& c) {
+      return refinement_.sweep(max_unit_length, round_ == 0 ? 0 : negligible(refine_share), c);
+    };
     const auto simplify = [&](Sweep_counts& c) { return simplification_.sweep(c); };
     const auto swap = [&](Sweep_counts& c) { return swapping_.sweep(c); };
     const auto relocate = [&](Sweep_counts& c) { return relocation_.sweep(c); };
@@ -75,8 +77,10 @@ private:
   /// Whether so few operations are left that they can wait for the next round.
   bool is_negligible(std::size_t operations) const
   {
-    return double(operations) <= negligible_share * double(surface_.mesh.number_of_vertices());
+    return operations <= negligible(negligible_share);
   }
+
+  std::size_t negligible(double share) const { return std::size_t(share * double(surface_.mesh.number_of_vertices())); }
 
   /// Repeats `sweep` until there is little left to do.
   template <class Sweep>
@@ -112,8 +116,9 @@ private:
   static constexpr std::size_t max_refine_sweeps = 24;   // each halves the edges
   static constexpr std::size_t max_simplify_sweeps = 12;
   static constexpr std::size_t max_swap_sweeps = 4;
-  static constexpr std::size_t max_relocate_sweeps = 4;
+  static constexpr std::size_t max_relocate_sweeps = 2;
   static constexpr double negligible_share = 0.002;
+  static constexpr double refine_share = 0.0005;         // a sweep rewrites the mesh, even for a single edge
 
   const Execution& execution_;
   Surface& surface_;

@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_background.h>
 #include <CGAL/Surface_mesh_adaptation/Reference_surface.h>
+#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/metric.h>
 
 #include <algorithm>
@@ -89,7 +90,7 @@ public:
 
   double length(Index h) const { return length(mesh.source(h), mesh.target(h)); }
 
-  double quality(Index a, Index b, Index c) const
+  CGAL_SMA_FLATTEN double quality(Index a, Index b, Index c) const
   {
     return face_quality(metrics[a], metrics[b], metrics[c], points[b] - points[a], points[c] - points[a]);
   }

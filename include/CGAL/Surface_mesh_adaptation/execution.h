@@ -173,19 +173,26 @@ void for_each_index(const Execution& execution, std::size_t n, const F& f)
   });
 }
 
-/// Folds `map(i)` over `[0, n)` with `combine`, chunk by chunk, then over the chunks, both in order.
-template <class Execution, class T, class Map, class Combine>
-T reduce(const Execution& execution, std::size_t n, const T& identity, const Map& map, const Combine& combine)
+/// Lets `add(value, i)` gather `[0, n)` into a value for each chunk, in order, and folds these with `combine`, in order.
+template <class Execution, class T, class Add, class Combine>
+T accumulate(const Execution& execution, std::size_t n, const T& identity, const Add& add, const Combine& combine)
 {
   std::vector<T> partial(number_of_chunks(n, default_chunk_length), identity);
   for_each_chunk(execution, n, default_chunk_length, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     T value = identity;
-    for (std::size_t i = begin; i < end; ++i) value = combine(value, map(i));
+    for (std::size_t i = begin; i < end; ++i) add(value, i);
     partial[chunk] = value;
   });
   T result = identity;
   for (const T& value : partial) result = combine(result, value);
   return result;
+}
+
+/// Folds `map(i)` over `[0, n)` with `combine`, chunk by chunk, then over the chunks, both in order.
+template <class Execution, class T, class Map, class Combine>
+T reduce(const Execution& execution, std::size_t n, const T& identity, const Map& map, const Combine& combine)
+{
+  return accumulate(execution, n, identity, [&](T& value, std::size_t i) { value = combine(value, map(i)); }, combine);
 }
 
 /// The number of `i` in `[0, n)` with `predicate(i)`.

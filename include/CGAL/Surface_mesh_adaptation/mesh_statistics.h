@@ -17,11 +17,11 @@ namespace Surface_mesh_adaptation {
 
 namespace internal {
 
-/// Smallest angle, in degrees, of the triangle of three points.
+/// Smallest angle, in degrees, of the triangle of three points: the one with the largest product of its sides.
 inline double smallest_angle(const Vector_3& a, const Vector_3& b, const Vector_3& c)
 {
-  const auto angle = [](const Vector_3& u, const Vector_3& v) { return std::atan2(u.cross(v).norm(), u.dot(v)); };
-  return (std::min)({angle(b - a, c - a), angle(c - b, a - b), angle(a - c, b - c)}) * 180 / M_PI;
+  const Vector_3 ab = b - a, ac = c - a, bc = c - b;
+  return std::atan2(ab.cross(ac).norm(), (std::max)({ab.dot(ac), -ab.dot(bc), ac.dot(bc)})) * 180 / M_PI;
 }
 
 /// Sums over elements; the counts of `Mesh_statistics` with sums in place of means.
@@ -61,8 +61,8 @@ void add_face(const Surface& surface, Index f, Mesh_statistics& s)
   const double q = surface.quality(a, b, c);
   ++s.faces;
   s.mean_quality += q;
-  s.min_quality = q;
-  s.min_angle = smallest_angle(surface.points[a], surface.points[b], surface.points[c]);
+  s.min_quality = (std::min)(s.min_quality, q);
+  s.min_angle = (std::min)(s.min_angle, smallest_angle(surface.points[a], surface.points[b], surface.points[c]));
   ++s.quality_histogram[std::size_t((std::min)(9.0, (std::max)(0.0, 10 * q)))];
 }
 
@@ -76,13 +76,11 @@ Mesh_statistics mesh_statistics(const Execution& execution, const Surface& surfa
   Mesh_statistics none;
   none.min_quality = 1;
   none.min_angle = 60;
-  Mesh_statistics s = reduce(execution, mesh.number_of_faces(), none, [&](std::size_t f) {
-    Mesh_statistics one = none;
-    if (mesh.is_removed_face(Index(f))) return one;
-    internal::add_face(surface, Index(f), one);
+  Mesh_statistics s = accumulate(execution, mesh.number_of_faces(), none, [&](Mesh_statistics& sum, std::size_t f) {
+    if (mesh.is_removed_face(Index(f))) return;
+    internal::add_face(surface, Index(f), sum);
     for (Index h = 3 * Index(f); h < 3 * Index(f) + 3; ++h)
-      if (mesh.is_edge_owner(h)) internal::add_edge(surface, h, one);
-    return one;
+      if (mesh.is_edge_owner(h)) internal::add_edge(surface, h, sum);
   }, internal::combined);
   s.vertices = count_if(execution, mesh.number_of_vertices(), [&](std::size_t v) {
     return !mesh.is_removed_vertex(Index(v));

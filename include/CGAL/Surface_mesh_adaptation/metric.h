@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace CGAL {
@@ -36,6 +37,8 @@ struct Anisotropic_metric
 constexpr double min_unit_length = 0.70710678118654752;
 constexpr double max_unit_length = 1.41421356237309505;
 
+constexpr double square_root_of_3 = 1.73205080756887729;
+
 /// Metric length of the edge `e` between vertices with metrics `a` and `b`: the trapezoidal rule.
 template <class Metric>
 double edge_length(const Metric& a, const Metric& b, const Vector_3& e)
@@ -48,32 +51,29 @@ inline double edge_length(const Isotropic_metric& a, const Isotropic_metric& b, 
   return 0.5 * (a.inverse_size + b.inverse_size) * e.norm();
 }
 
-namespace internal {
-
-/// `4 sqrt 3 area / sum of squared lengths` from the products of two edge vectors `e1`, `e2` of a triangle.
-inline double quality_of_products(double e11, double e12, double e22)
-{
-  const double det = e11 * e22 - e12 * e12;
-  const double sum = e11 + e22 - e12;
-  return det > 0 && sum > 0 ? std::sqrt(3 * det) / sum : 0;
-}
-
-} // namespace internal
-
-/// Quality of a triangle with edge vectors `e1`, `e2` from its first corner: 1 if equilateral in the mean metric of
-/// its corners, 0 if degenerate.
+/// Quality of a triangle with edge vectors `e1`, `e2` from its first corner and twice the area `double_area`: 1 if
+/// equilateral in the mean metric of its corners, 0 if degenerate.
 inline double face_quality(const Isotropic_metric&, const Isotropic_metric&, const Isotropic_metric&,
-                           const Vector_3& e1, const Vector_3& e2)
+                           const Vector_3& e1, const Vector_3& e2, double double_area)
 {
-  return internal::quality_of_products(e1.squaredNorm(), e1.dot(e2), e2.squaredNorm());
+  const double sum = e1.squaredNorm() + e2.squaredNorm() - e1.dot(e2);
+  return sum > 0 ? square_root_of_3 * double_area / sum : 0;
 }
 
 inline double face_quality(const Anisotropic_metric& a, const Anisotropic_metric& b, const Anisotropic_metric& c,
-                           const Vector_3& e1, const Vector_3& e2)
+                           const Vector_3& e1, const Vector_3& e2, double)
 {
-  const Metric_tensor_3 sum = a.m + b.m + c.m; // quality does not depend on the scale
-  const Vector_3 m1 = sum * e1, m2 = sum * e2;
-  return internal::quality_of_products(e1.dot(m1), e1.dot(m2), e2.dot(m2));
+  const Metric_tensor_3 mean = a.m + b.m + c.m; // times 3: quality does not depend on the scale
+  const Vector_3 m1 = mean * e1, m2 = mean * e2;
+  const double e11 = e1.dot(m1), e12 = e1.dot(m2), e22 = e2.dot(m2);
+  const double det = e11 * e22 - e12 * e12, sum = e11 + e22 - e12;
+  return det > 0 && sum > 0 ? std::sqrt(3 * det) / sum : 0;
+}
+
+template <class Metric>
+double face_quality(const Metric& a, const Metric& b, const Metric& c, const Vector_3& e1, const Vector_3& e2)
+{
+  return face_quality(a, b, c, e1, e2, e1.cross(e2).norm());
 }
 
 /// Relative density of the metric at three corners over a triangle, for weighting its area.

@@ -6,6 +6,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_RECONSTRUCTION_H
 
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 
 #include <array>
 
@@ -54,24 +55,24 @@ struct Flat_reconstruction
 /// \cgalModels `SurfaceReconstruction`
 struct PN_triangle_reconstruction
 {
-  static Surface_point evaluate(const Patch& p, double u, double v)
+  CGAL_SMA_FLATTEN static Surface_point evaluate(const Patch& p, double u, double v)
   {
-    const double w = 1 - u - v;
     const Vector_3 &p0 = p.points[0], &p1 = p.points[1], &p2 = p.points[2];
-    const Vector_3 b01 = p0 + handle(p, 0, 0), b10 = p1 + handle(p, 0, 1);
-    const Vector_3 b12 = p1 + handle(p, 1, 0), b21 = p2 + handle(p, 1, 1);
-    const Vector_3 b20 = p2 + handle(p, 2, 0), b02 = p0 + handle(p, 2, 1);
-    const Vector_3 mean = (b01 + b10 + b12 + b21 + b20 + b02) / 6;
-    const Vector_3 center = mean + (mean - (p0 + p1 + p2) / 3) / 2;
+    const Edge_handles h0 = handles(p, 0), h1 = handles(p, 1), h2 = handles(p, 2);
+    const Vector_3 b01 = p0 + h0.start, b10 = p1 + h0.end, b12 = p1 + h1.start, b21 = p2 + h1.end,
+                   b20 = p2 + h2.start, b02 = p0 + h2.end;
+    // the mean of the inner control points of the edges, plus half of what separates it from the mean of the corners
+    const Vector_3 center = (b01 + b10 + b12 + b21 + b20 + b02) / 4 - (p0 + p1 + p2) / 6;
 
-    const Vector_3 position = w * w * w * p0 + u * u * u * p1 + v * v * v * p2 +
-                              3 * (w * w * (u * b01 + v * b02) + u * u * (w * b10 + v * b12) +
-                                   v * v * (w * b20 + u * b21)) + 6 * w * u * v * center;
-    // derivatives along edges 0 and 2, over three: the quadratic patches of differences of the control points
-    const Vector_3 du = w * w * (b01 - p0) + u * u * (p1 - b10) + v * v * (b21 - b20) +
-                        2 * (w * u * (b10 - b01) + u * v * (b12 - center) + w * v * (center - b02));
-    const Vector_3 dv = w * w * (b02 - p0) + u * u * (b12 - b10) + v * v * (p2 - b20) +
-                        2 * (w * u * (center - b01) + u * v * (b21 - center) + w * v * (b20 - b02));
+    // de Casteljau: three linear interpolations, of which the last but one spans the tangent plane
+    const double w = 1 - u - v;
+    const auto blend = [=](const Vector_3& x, const Vector_3& y, const Vector_3& z) -> Vector_3 {
+      return w * x + u * y + v * z;
+    };
+    const Vector_3 q00 = blend(p0, b01, b02), q11 = blend(b10, p1, b12), q22 = blend(b20, b21, p2);
+    const Vector_3 q01 = blend(b01, b10, center), q02 = blend(b02, center, b20), q12 = blend(center, b12, b21);
+    const Vector_3 r0 = blend(q00, q01, q02), r1 = blend(q01, q11, q12), r2 = blend(q02, q12, q22);
+    const Vector_3 position = blend(r0, r1, r2), du = r1 - r0, dv = r2 - r0;
     const Vector_3 normal = du.cross(dv);
     const double length = normal.norm();
     if (!(length > 0)) return Flat_reconstruction::evaluate(p, u, v);
@@ -86,15 +87,26 @@ struct PN_triangle_reconstruction
   }
 
 private:
-  /// From end `end` of edge `edge` to the control point next to it.
-  static Vector_3 handle(const Patch& p, int edge, int end)
+  /// From the ends of an edge to the control points next to them.
+  struct Edge_handles
   {
-    const int i = end == 0 ? edge : (edge + 1) % 3, j = end == 0 ? (edge + 1) % 3 : edge;
+    Vector_3 start, end;
+  };
+
+  static Edge_handles handles(const Patch& p, std::size_t edge)
+  {
+    const std::size_t i = edge, j = (edge + 1) % 3;
     const Vector_3 c = p.points[j] - p.points[i];
-    if (p.is_feature[edge]) return curve_handle(c, p.tangents[edge][end]);
-    const double out = c.dot(p.normals[i]);
-    if (2 * out * out > c.squaredNorm()) return c / 3;
-    return (c - out * p.normals[i]) / 3;
+    if (p.is_feature[edge]) return {curve_handle(c, p.tangents[edge][0]), -curve_handle(c, p.tangents[edge][1])};
+    const double length2 = c.squaredNorm();
+    return {tangential_part(c, p.normals[i], length2) / 3, tangential_part(c, p.normals[j], length2) / -3};
+  }
+
+  static Vector_3 tangential_part(const Vector_3& c, const Vector_3& normal, double squared_length)
+  {
+    const double out = c.dot(normal);
+    if (2 * out * out > squared_length) return c;
+    return c - out * normal;
   }
 
   static Vector_3 curve_handle(const Vector_3& c, const Vector_3& tangent)

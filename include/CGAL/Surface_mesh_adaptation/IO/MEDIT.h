@@ -540,7 +540,7 @@ auto medit_to_triangle_mesh(const Medit_mesh& medit, TriangleMesh& mesh, EdgeIsC
   std::vector<Point> points;
   points.reserve(medit.points.size());
   for (const auto& p : medit.points) points.emplace_back(p[0], p[1], p[2]);
-  const auto vertex_of_point = triangle_soup_to_triangle_mesh(std::move(points), medit.triangles, mesh);
+  auto vertex_of_point = triangle_soup_to_triangle_mesh(std::move(points), medit.triangles, mesh);
 
   const auto mark_edges = [&](const Medit_mesh::Indices& edges) {
     for (const std::uint32_t e : edges) {

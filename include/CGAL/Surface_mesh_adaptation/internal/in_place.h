@@ -80,7 +80,7 @@ void write_constraints(FaceGraph& graph, const Surface& surface, const Feature_p
                        const NamedParameters& np)
 {
   if constexpr (has_parameter<NamedParameters, CGAL::internal_np::vertex_is_constrained_t>) {
-    const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_is_constrained);
+    auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_is_constrained);
     if constexpr (is_writable<typename boost::property_traits<std::decay_t<decltype(map)>>::category>) {
       std::size_t i = 0;
       for (const auto v : vertices(graph)) {
@@ -90,7 +90,7 @@ void write_constraints(FaceGraph& graph, const Surface& surface, const Feature_p
     }
   }
   if constexpr (has_parameter<NamedParameters, CGAL::internal_np::edge_is_constrained_t>) {
-    const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained);
+    auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained);
     if constexpr (is_writable<typename boost::property_traits<std::decay_t<decltype(map)>>::category>) {
       for (const auto e : edges(graph)) put(map, e, false);
       std::size_t h = 0;
@@ -107,7 +107,7 @@ template <class FaceGraph, class Surface, class NamedParameters>
 void write_metric(FaceGraph& graph, const Surface& surface, const NamedParameters& np)
 {
   if constexpr (has_parameter<NamedParameters, internal_np::output_metric_map_t>) {
-    const auto map = CGAL::parameters::get_parameter(np, internal_np::output_metric_map);
+    auto map = CGAL::parameters::get_parameter(np, internal_np::output_metric_map);
     std::size_t i = 0;
     for (const auto v : vertices(graph)) put(map, v, surface.metrics[i++].tensor());
   }

@@ -35,14 +35,15 @@ public:
   Refinement(const Execution& execution, Surface& surface) : execution_(execution), surface_(surface), mesh_(surface.mesh)
   {}
 
-  /// Splits every edge longer than `max_length`, once. Returns the number of edges split.
-  std::size_t sweep(double max_length, Sweep_counts& counts)
+  /// Splits every edge longer than `max_length`, once, if there are more than `negligible`. Returns the number of edges
+  /// split.
+  std::size_t sweep(double max_length, std::size_t negligible, Sweep_counts& counts)
   {
     counts.candidates += mesh_.number_of_halfedges() / 2;
     mark(max_length);
     for (;;) {
       const std::size_t marked = count_marked();
-      if (marked == 0) return 0;
+      if (marked <= negligible) return 0;
       const Restructuring plan(execution_, mesh_, codes_);
       if (plan.number_of_faces() > max_number_of_faces) throw Mesh_too_large_error();
       place_vertices(plan);

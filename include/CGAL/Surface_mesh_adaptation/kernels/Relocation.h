@@ -16,6 +16,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
 
@@ -29,7 +30,7 @@ namespace Surface_mesh_adaptation {
 struct Relocation_thresholds
 {
   double good_quality = 0.8;   ///< faces above may lose quality to others around the same vertex
-  double min_move = 0.01;      ///< metric length below which a move is not worth it
+  double min_move = 0.02;      ///< metric length below which a move is not worth it
 };
 
 template <class Surface, class Execution>
@@ -63,15 +64,22 @@ public:
   }
 
 private:
-  /// The faces around a vertex, as the ring of their other corners.
+  /// The faces around a vertex, as the ring of their other corners, gathered once for all trials.
   struct Star
   {
     Ring<Index> ring;
+    Ring<Vector_3> points;
+    Ring<Vector_3> normals;   ///< zero on curves and at corners, which have several
+    Ring<Metric> metrics;
     bool is_closed = true;
 
-    std::size_t number_of_faces() const { return is_closed ? ring.size() : ring.size() - 1; }
-    Index first(std::size_t i) const { return ring[i]; }
-    Index second(std::size_t i) const { return ring[i + 1 == ring.size() ? 0 : i + 1]; }
+    /// Calls `f(i, j)` for the pairs of consecutive ring vertices.
+    template <class F>
+    void for_each_face(const F& f) const
+    {
+      for (std::size_t i = 0; i + 1 < ring.size(); ++i) f(i, i + 1);
+      if (is_closed) f(ring.size() - 1, std::size_t(0));
+    }
   };
 
   struct Shape
@@ -113,27 +121,30 @@ private:
   {
     Star s;
     s.is_closed = !mesh_.is_border_vertex(v);
-    mesh_.for_each_neighbor(v, [&](Index w) { s.ring.push_back(w); });
+    mesh_.for_each_neighbor(v, [&](Index w) {
+      s.ring.push_back(w);
+      s.points.push_back(surface_.points[w]);
+      s.normals.push_back(surface_.normals[w]);
+      s.metrics.push_back(surface_.metrics[w]);
+    });
     return s;
   }
 
-  Shape shape(const Star& star, const Placed_vertex<Metric>& v) const
+  CGAL_SMA_FLATTEN static Shape shape(const Star& star, const Placed_vertex<Metric>& v)
   {
     Shape s;
-    const bool is_smooth = v.location.kind == Vertex_class::smooth;
-    for (std::size_t i = 0; i < star.number_of_faces(); ++i) {
-      const Index a = star.first(i), b = star.second(i);
-      const Vector_3 ea = surface_.points[a] - v.point, eb = surface_.points[b] - v.point;
-      const double q = face_quality(v.metric, surface_.metrics[a], surface_.metrics[b], ea, eb);
+    star.for_each_face([&](std::size_t i, std::size_t j) {
+      const Vector_3 ea = star.points[i] - v.point, eb = star.points[j] - v.point;
+      const Vector_3 n = ea.cross(eb);
+      const double length = n.norm();
+      const double q = face_quality(v.metric, star.metrics[i], star.metrics[j], ea, eb, length);
       s.worst = (std::min)(s.worst, q);
       s.sum += q;
-      const Vector_3 n = ea.cross(eb);
-      double dot = is_smooth ? n.dot(v.normal) : n.norm();
-      for (Index w : {a, b})
-        if (surface_.vertex_class(w) == Vertex_class::smooth) dot = (std::min)(dot, n.dot(surface_.normals[w]));
-      const double length = n.norm();
-      s.alignment = (std::min)(s.alignment, length > 0 ? dot / length : -1);
-    }
+      double least = length;
+      for (const Vector_3* m : {&v.normal, &star.normals[i], &star.normals[j]})
+        if (*m != Vector_3::Zero()) least = (std::min)(least, n.dot(*m));
+      s.alignment = (std::min)(s.alignment, length > 0 ? least / length : -1);
+    });
     return s;
   }
 
@@ -145,18 +156,16 @@ private:
   }
 
   /// Displacement to the centre of mass of the faces around `v`, in its tangent plane.
-  Vector_3 displacement_to_center(Index v, const Star& star) const
+  CGAL_SMA_FLATTEN Vector_3 displacement_to_center(Index v, const Star& star) const
   {
     Vector_3 sum = Vector_3::Zero();
     double weight = 0;
-    for (std::size_t i = 0; i < star.number_of_faces(); ++i) {
-      const Index a = star.first(i), b = star.second(i);
-      const Vector_3 ea = surface_.points[a] - surface_.points[v], eb = surface_.points[b] - surface_.points[v];
-      const double w = face_density(surface_.metrics[v], surface_.metrics[a], surface_.metrics[b], ea, eb,
-                                    ea.cross(eb).norm());
+    star.for_each_face([&](std::size_t i, std::size_t j) {
+      const Vector_3 ea = star.points[i] - surface_.points[v], eb = star.points[j] - surface_.points[v];
+      const double w = face_density(surface_.metrics[v], star.metrics[i], star.metrics[j], ea, eb, ea.cross(eb).norm());
       sum += w / 3 * (ea + eb);
       weight += w;
-    }
+    });
     if (!(weight > 0)) return Vector_3::Zero();
     sum /= weight;
     return sum - sum.dot(surface_.normals[v]) * surface_.normals[v];

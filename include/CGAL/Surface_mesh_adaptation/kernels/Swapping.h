@@ -64,6 +64,7 @@ public:
     const Index t = mesh_.twin[h];
     const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
     const double before = (std::min)(surface_.quality(p, q, b), surface_.quality(q, p, a));
+    if (before > max_improvable_quality) return 0;
     const double after = (std::min)(surface_.quality(a, b, p), surface_.quality(b, a, q));
     const bool better = after > before * min_improvement;
     if (!better && !(thresholds_.equalize_degrees && after > min_degree_swap_quality &&
@@ -90,7 +91,8 @@ private:
   static constexpr double min_improvement = 1.0 + 1e-3; // strict, and above rounding
   static constexpr double least_gain = 1e-9;
   static constexpr double min_degree_swap_quality = 0.55; // degrees matter only among good faces
-  static constexpr double max_quality_loss = 0.6;
+  static constexpr double max_quality_loss = 0.7;
+  static constexpr double max_improvable_quality = 0.9; // two such faces make two bad ones
   static constexpr double min_turn = 0.5;
 
   /// Works through the edges from `v` to larger ids that lie in the block; whether some do not.

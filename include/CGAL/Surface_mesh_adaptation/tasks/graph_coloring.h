@@ -13,8 +13,6 @@
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
-#include <boost/container/small_vector.hpp>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -32,18 +30,33 @@ struct Graph_coloring
 
 namespace internal {
 
-/// The least number that is not in `used`.
-template <class Colors>
-std::uint32_t first_fit(Colors& used)
+/// A set of colours that finds the least one missing.
+class Color_set
 {
-  std::sort(used.begin(), used.end());
-  std::uint32_t color = 0;
-  for (std::uint32_t u : used) {
-    if (u > color) break;
-    if (u == color) ++color;
+public:
+  void insert(std::uint32_t color)
+  {
+    if (color < 64) low_ |= std::uint64_t(1) << color;
+    else high_.push_back(color);
   }
-  return color;
-}
+
+  std::uint32_t first_missing()
+  {
+    for (std::uint32_t color = 0; color < 64; ++color)
+      if ((low_ >> color & 1) == 0) return color;
+    std::sort(high_.begin(), high_.end());
+    std::uint32_t color = 64;
+    for (std::uint32_t used : high_) {
+      if (used > color) break;
+      if (used == color) ++color;
+    }
+    return color;
+  }
+
+private:
+  std::uint64_t low_ = 0;
+  std::vector<std::uint32_t> high_; // only around nodes with very many neighbours
+};
 
 } // namespace internal
 
@@ -66,14 +79,14 @@ Graph_coloring graph_coloring(const Execution& execution, std::size_t n, const N
     chosen.resize(waiting.size());
     for_each_index(execution, waiting.size(), [&](std::size_t w) {
       const std::size_t i = waiting[w];
-      boost::container::small_vector<std::uint32_t, 32> used;
+      internal::Color_set used;
       bool is_ready = true;
       neighbors(i, [&](std::size_t j) {
         if (j == i || !goes_before(j, i)) return;
         if (result.color[j] == uncolored) is_ready = false;
-        else used.push_back(result.color[j]);
+        else used.insert(result.color[j]);
       });
-      chosen[w] = is_ready ? internal::first_fit(used) : uncolored;
+      chosen[w] = is_ready ? used.first_missing() : uncolored;
     });
     for_each_index(execution, waiting.size(), [&](std::size_t w) { result.color[waiting[w]] = chosen[w]; });
     const auto late = pack(execution, waiting.size(), [&](std::size_t w) { return chosen[w] == uncolored; });

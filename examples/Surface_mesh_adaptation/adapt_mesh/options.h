@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The command line of adapt_mesh.
+
+#ifndef ADAPT_MESH_OPTIONS_H
+#define ADAPT_MESH_OPTIONS_H
+
+#include <boost/program_options.hpp>
+
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+
+namespace adapt_mesh {
+
+/// The command line makes no sense.
+struct Usage_error : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+struct Options
+{
+  std::string input;
+  std::string output;
+  double size = 0; ///< 0 if not given, like all numbers here
+  double curvature = 0;
+  std::string metric; ///< a file, empty if not given
+  bool anisotropic = false;
+  double hmin = 0;
+  double hmax = 0;
+  std::optional<double> feature_angle; ///< in degrees
+  bool no_features = false;
+  int rounds = 0;
+  int threads = 0;
+  std::string execution; ///< empty: the best one that was built in
+  std::string output_metric;
+  std::string report;
+  bool quiet = false;
+  bool verbose = false;
+  bool help = false;
+  bool version = false;
+};
+
+namespace internal {
+
+namespace po = boost::program_options;
+
+inline po::options_description described_options(Options& o)
+{
+  po::options_description described("Options");
+  // clang-format off
+  described.add_options()
+    ("size", po::value(&o.size)->value_name("H"), "uniform target edge length")
+    ("curvature", po::value(&o.curvature)->value_name("EPS"),
+     "sizes from the curvature, which aim at a distance to the surface of EPS times the diagonal of the bounding box")
+    ("metric", po::value(&o.metric)->value_name("FILE.sol"),
+     "sizes (1 value) or tensors (6 values: xx xy yy xz yz zz) at the vertices of the input")
+    ("field", po::value<std::string>()->value_name("FILE.sol"),
+     "scalar field at the vertices of the input (not available yet)")
+    ("anisotropic", po::bool_switch(&o.anisotropic), "keep the directions of the curvature")
+    ("vertices", po::value<std::string>()->value_name("N"), "target number of vertices (not available yet)")
+    ("hmin", po::value(&o.hmin)->value_name("H"), "lower bound on the sizes of --curvature and --metric")
+    ("hmax", po::value(&o.hmax)->value_name("H"), "upper bound on the sizes of --curvature and --metric")
+    ("gradation", po::value<std::string>()->value_name("R"), "bound on the growth of the sizes (not available yet)")
+    ("feature-angle", po::value<double>()->value_name("DEG")->notifier([&](double a) { o.feature_angle = a; }),
+     "edges whose faces meet at a larger angle are kept sharp (default: 45)")
+    ("no-features", po::bool_switch(&o.no_features), "do not look for sharp edges")
+    ("tolerance", po::value<std::string>()->value_name("EPS"),
+     "bound on the distance between input and output (not available yet)")
+    ("rounds", po::value(&o.rounds)->value_name("N"), "number of rounds of the kernels")
+    ("threads", po::value(&o.threads)->value_name("N"), "number of threads (default: all)")
+    ("execution", po::value(&o.execution)->value_name("WHICH"),
+     "sequential, tbb or openmp (default: the best one that was built in)")
+    ("output-metric", po::value(&o.output_metric)->value_name("FILE.sol"),
+     "write the metric at the vertices of the output")
+    ("report", po::value(&o.report)->value_name("FILE.json"), "write the report of the run")
+    ("quiet", po::bool_switch(&o.quiet), "print errors only")
+    ("verbose", po::bool_switch(&o.verbose), "print each step")
+    ("version", po::bool_switch(&o.version), "print the version")
+    ("help", po::bool_switch(&o.help), "print this text");
+  // clang-format on
+  return described;
+}
+
+inline void check_positive(const po::variables_map& given, const Options& o)
+{
+  const auto check = [&](const char* name, double value) {
+    if (given.count(name) != 0 && !(std::isfinite(value) && value > 0))
+      throw Usage_error(std::string("--") + name + " must be a positive number");
+  };
+  check("size", o.size);
+  check("curvature", o.curvature);
+  check("hmin", o.hmin);
+  check("hmax", o.hmax);
+  check("rounds", o.rounds);
+  check("threads", o.threads);
+  if (o.feature_angle && !(*o.feature_angle > 0 && *o.feature_angle <= 180))
+    throw Usage_error("--feature-angle must be an angle in degrees, above 0 and up to 180");
+}
+
+inline void check_available(const po::variables_map& given)
+{
+  for (const char* name : {"field", "vertices", "gradation", "tolerance"})
+    if (given.count(name) != 0) throw Usage_error(std::string("--") + name + " is not available yet");
+}
+
+inline void check_consistent(const Options& o)
+{
+  if (o.input.empty() || o.output.empty()) throw Usage_error("INPUT and OUTPUT are required");
+  if (int(o.size > 0) + int(o.curvature > 0) + int(!o.metric.empty()) != 1)
+    throw Usage_error("exactly one of --size, --curvature and --metric is required");
+  if (o.anisotropic && o.curvature == 0) throw Usage_error("--anisotropic needs --curvature");
+  if (o.size > 0 && (o.hmin > 0 || o.hmax > 0)) throw Usage_error("--hmin and --hmax contradict --size");
+  if (o.hmin > 0 && o.hmax > 0 && o.hmin > o.hmax) throw Usage_error("--hmin is larger than --hmax");
+  if (o.no_features && o.feature_angle) throw Usage_error("--feature-angle contradicts --no-features");
+  if (o.quiet && o.verbose) throw Usage_error("--quiet contradicts --verbose");
+  if (o.execution == "sequential" && o.threads > 1) throw Usage_error("--threads needs a parallel --execution");
+}
+
+} // namespace internal
+
+inline void print_help(std::ostream& out)
+{
+  Options options;
+  out
+    << "Usage: adapt_mesh INPUT OUTPUT [options]\n\n"
+       "Adapts the triangulated surface in INPUT to a metric and writes it to OUTPUT. The formats follow from the\n"
+       "extensions: off, obj, ply, stl, mesh (MEDIT). Exactly one of --size, --curvature and --metric is required.\n\n"
+    << internal::described_options(options) << "\nExit status: 0 done, 1 failed, 2 wrong usage, 3 unusable input.\n";
+}
+
+/// \throws Usage_error
+inline Options parse_options(int argc, char* argv[])
+{
+  namespace po = internal::po;
+  Options options;
+  po::options_description all = internal::described_options(options);
+  all.add_options()("input", po::value(&options.input))("output", po::value(&options.output));
+  po::positional_options_description positions;
+  positions.add("input", 1).add("output", 1);
+  using Style = po::command_line_style::style_t;
+  const int style = po::command_line_style::default_style & ~Style::allow_guessing;
+
+  po::variables_map given;
+  try {
+    po::store(po::command_line_parser(argc, argv).options(all).positional(positions).style(style).run(), given);
+    po::notify(given);
+  } catch (const po::error& e) {
+    throw Usage_error(e.what());
+  }
+  if (options.help || options.version) return options;
+  internal::check_available(given);
+  internal::check_positive(given, options);
+  internal::check_consistent(options);
+  return options;
+}
+
+} // namespace adapt_mesh
+
+#endif // ADAPT_MESH_OPTIONS_H

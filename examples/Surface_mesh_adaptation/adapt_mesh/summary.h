@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef ADAPT_MESH_SUMMARY_H
+#define ADAPT_MESH_SUMMARY_H
+
+#include "mesh_files.h"
+
+#include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
+
+#include <CGAL/Polygon_mesh_processing/bbox.h>
+#include <CGAL/Polygon_mesh_processing/distance.h>
+#include <CGAL/number_utils.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace adapt_mesh {
+
+/// Two-sided Hausdorff distance between samples: the same number of points on any mesh, the same points in any run.
+inline double sampled_distance(const Mesh& a, const Mesh& b)
+{
+  constexpr unsigned number_of_samples = 50000;
+  const auto parameters = CGAL::parameters::number_of_points_on_faces(number_of_samples)
+                            .do_sample_vertices(false)
+                            .do_sample_edges(false)
+                            .random_seed(0);
+  return CGAL::Polygon_mesh_processing::approximate_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(a, b, parameters,
+                                                                                                       parameters);
+}
+
+inline double diagonal(const Mesh& mesh)
+{
+  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);
+  return std::sqrt(CGAL::square(box.x_span()) + CGAL::square(box.y_span()) + CGAL::square(box.z_span()));
+}
+
+/// Prints what was reached, on stdout.
+inline void print_summary(const SMA::Adaptation_report& report, const Mesh& input, const Mesh& output)
+{
+  const SMA::Mesh_statistics& before = report.initial;
+  const SMA::Mesh_statistics& after = report.final;
+  const double distance = sampled_distance(input, output);
+  std::printf("vertices  %zu -> %zu\n", before.vertices, after.vertices);
+  std::printf("in range  %.2f %% -> %.2f %% of the edges\n", 100 * before.in_range, 100 * after.in_range);
+  std::printf("quality   %.3f -> %.3f mean, %.3f -> %.3f worst; smallest angle %.1f degrees\n", before.mean_quality,
+              after.mean_quality, before.min_quality, after.min_quality, after.min_angle);
+  std::printf("distance  %.3g, %.3g of the diagonal (sampled)\n", distance, distance / diagonal(input));
+  std::printf("time      %.3g s, %s, %d thread%s\n", report.seconds, report.execution.c_str(), report.threads,
+              report.threads == 1 ? "" : "s");
+}
+
+} // namespace adapt_mesh
+
+#endif // ADAPT_MESH_SUMMARY_H
