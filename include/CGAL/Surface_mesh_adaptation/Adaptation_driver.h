@@ -52,19 +52,19 @@ private:
   /// Returns the number of operations that changed the connectivity.
   std::size_t do_round()
   {
+    std::size_t changed = 0, split = 0;
     const auto refine = [&](Sweep_counts& c) {
-      return refinement_.sweep(max_unit_length, round_ == 0 ? 0 : negligible(refine_share), c);
+      return refinement_.sweep(max_unit_length, negligible(split == 0 ? first_refine_share : refine_share), c);
     };
     const auto simplify = [&](Sweep_counts& c) { return simplification_.sweep(c); };
     const auto swap = [&](Sweep_counts& c) { return swapping_.sweep(c); };
     const auto relocate = [&](Sweep_counts& c) { return relocation_.sweep(c); };
 
-    std::size_t changed = 0, split = 0;
     // Long edges of needles are halved many times over: unless what this leaves behind is mended in between,
     // the pieces of one needle fill the surface with others.
     for (std::size_t i = 0; i < max_refine_sweeps; ++i) {
       changed += split = run_kernel("refine", 1, refine);
-      if (is_negligible(split)) break;
+      if (split <= negligible(refine_share)) break;
       changed += run_kernel("simplify", 1, simplify);
       changed += run_kernel("swap", 1, swap);
     }
@@ -118,7 +118,8 @@ private:
   static constexpr std::size_t max_swap_sweeps = 4;
   static constexpr std::size_t max_relocate_sweeps = 2;
   static constexpr double negligible_share = 0.002;
-  static constexpr double refine_share = 0.0005;         // a sweep rewrites the mesh, even for a single edge
+  static constexpr double refine_share = 0.01;           // a sweep rewrites the mesh, even for a single edge, so
+  static constexpr double first_refine_share = 0.0005;   // a few edges wait for the first sweep of the next round
 
   const Execution& execution_;
   Surface& surface_;

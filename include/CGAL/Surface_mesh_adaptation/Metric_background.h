@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <functional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,15 @@ std::size_t first_invalid(const Execution& execution, std::size_t n, const IsVal
 {
   return reduce(execution, n, n, [&](std::size_t i) { return is_valid(i) ? n : i; },
                 [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
+}
+
+/// Whether a size and its metric are positive and finite.
+inline bool is_valid_size(double size) { return size > 0 && std::isnormal(size * size) && std::isnormal(1 / (size * size)); }
+
+[[noreturn]] inline void throw_invalid_formula(const Vector_3& p)
+{
+  throw Invalid_parameter_error("the metric is not finite and positive definite at the point (" + std::to_string(p[0]) +
+                                ", " + std::to_string(p[1]) + ", " + std::to_string(p[2]) + ")");
 }
 
 } // namespace internal
@@ -52,7 +62,7 @@ public:
   Metric_background(const Execution& execution, std::vector<double> sizes) : sizes_(std::move(sizes))
   {
     const std::size_t bad = internal::first_invalid(execution, sizes_.size(), [&](std::size_t v) {
-      return sizes_[v] > 0 && std::isfinite(1 / (sizes_[v] * sizes_[v]));
+      return internal::is_valid_size(sizes_[v]);
     });
     if (bad < sizes_.size()) throw Invalid_metric_error(bad);
   }
@@ -63,7 +73,11 @@ public:
   Isotropic_metric at(const Reference& reference, const Location& l, const Surface_point& p) const
   {
     if (uniform_ > 0) return {uniform_};
-    if (formula_) return {1 / formula_(p.position)};
+    if (formula_) {
+      const double size = formula_(p.position);
+      if (!internal::is_valid_size(size)) internal::throw_invalid_formula(p.position);
+      return {1 / size};
+    }
     const auto i = reference.interpolation(l);
     return {1 / (i.weights[0] * sizes_[i.vertices[0]] + i.weights[1] * sizes_[i.vertices[1]] +
                  i.weights[2] * sizes_[i.vertices[2]])};
@@ -100,7 +114,11 @@ public:
   template <class Reference>
   Anisotropic_metric at(const Reference& reference, const Location& l, const Surface_point& p) const
   {
-    if (formula_) return {formula_(p.position)};
+    if (formula_) {
+      const Metric_tensor_3 m = formula_(p.position);
+      if (!is_positive_definite(m)) internal::throw_invalid_formula(p.position);
+      return {m};
+    }
     const auto i = reference.interpolation(l);
     Metric_tensor_3 sum(0, 0, 0, 0, 0, 0);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -207,9 +207,11 @@ void write_connectivity(const Execution&, const Mesh_view& view, FaceGraph& grap
   std::vector<typename boost::graph_traits<FaceGraph>::vertex_descriptor> vertex;
   vertex.reserve(view.number_of_vertices());
   for (std::size_t v = 0; v < view.number_of_vertices(); ++v) vertex.push_back(add_vertex(graph));
-  for (std::size_t h = 0; h < view.number_of_halfedges(); h += 3)
-    CGAL::Euler::add_face(std::array{vertex[view.corner[h]], vertex[view.corner[h + 1]], vertex[view.corner[h + 2]]},
-                          graph);
+  for (std::size_t h = 0; h < view.number_of_halfedges(); h += 3) {
+    const auto f = CGAL::Euler::add_face(
+      std::array{vertex[view.corner[h]], vertex[view.corner[h + 1]], vertex[view.corner[h + 2]]}, graph);
+    set_halfedge(f, next(halfedge(f, graph), graph), graph); // the one that leaves the first corner, as in the view
+  }
 }
 
 /// Writes points into a property map of the written mesh, of which vertex `i` is the `i`-th.

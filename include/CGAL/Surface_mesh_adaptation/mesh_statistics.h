@@ -8,63 +8,65 @@
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
 namespace internal {
 
-/// Smallest angle, in degrees, of the triangle of three points: the one with the largest product of its sides.
-inline double smallest_angle(const Vector_3& a, const Vector_3& b, const Vector_3& c)
+/// Sums over some elements.
+struct Statistics_sum
 {
-  const Vector_3 ab = b - a, ac = c - a, bc = c - b;
-  return std::atan2(ab.cross(ac).norm(), (std::max)({ab.dot(ac), -ab.dot(bc), ac.dot(bc)})) * 180 / M_PI;
-}
+  Mesh_statistics s;           ///< with sums in place of means
+  double max_cotangent = 0;    ///< of the smallest angle: at least that of 60 degrees
 
-/// Sums over elements; the counts of `Mesh_statistics` with sums in place of means.
-inline Mesh_statistics combined(const Mesh_statistics& a, const Mesh_statistics& b)
-{
-  Mesh_statistics r = a;
-  r.vertices += b.vertices;
-  r.edges += b.edges;
-  r.faces += b.faces;
-  r.in_range += b.in_range;
-  r.mean_length += b.mean_length;
-  r.mean_quality += b.mean_quality;
-  r.min_quality = (std::min)(r.min_quality, b.min_quality);
-  r.min_angle = (std::min)(r.min_angle, b.min_angle);
-  for (std::size_t i = 0; i < 10; ++i) {
-    r.quality_histogram[i] += b.quality_histogram[i];
-    r.length_histogram[i] += b.length_histogram[i];
+  Statistics_sum() { s.min_quality = 1; }
+
+  Statistics_sum operator+(const Statistics_sum& o) const
+  {
+    Statistics_sum r = *this;
+    r.max_cotangent = (std::max)(max_cotangent, o.max_cotangent);
+    r.s.edges += o.s.edges;
+    r.s.faces += o.s.faces;
+    r.s.in_range += o.s.in_range;
+    r.s.mean_length += o.s.mean_length;
+    r.s.mean_quality += o.s.mean_quality;
+    r.s.min_quality = (std::min)(s.min_quality, o.s.min_quality);
+    for (std::size_t i = 0; i < s.quality_histogram.size(); ++i) {
+      r.s.quality_histogram[i] += o.s.quality_histogram[i];
+      r.s.length_histogram[i] += o.s.length_histogram[i];
+    }
+    return r;
   }
-  return r;
-}
 
-template <class Surface>
-void add_edge(const Surface& surface, Index h, Mesh_statistics& s)
-{
-  const double length = surface.length(h);
-  ++s.edges;
-  s.mean_length += length;
-  s.in_range += length >= min_unit_length && length <= max_unit_length ? 1 : 0;
-  ++s.length_histogram[std::size_t((std::min)(9.0, (std::max)(0.0, 5 * length)))];
-}
+  void add_edge(double length)
+  {
+    ++s.edges;
+    s.mean_length += length;
+    s.in_range += length >= min_unit_length && length <= max_unit_length ? 1 : 0;
+    ++s.length_histogram[std::size_t((std::min)(9.0, (std::max)(0.0, 5 * length)))];
+  }
 
-template <class Surface>
-void add_face(const Surface& surface, Index f, Mesh_statistics& s)
-{
-  const Index a = surface.mesh.corner[3 * std::size_t(f)], b = surface.mesh.corner[3 * std::size_t(f) + 1],
-              c = surface.mesh.corner[3 * std::size_t(f) + 2];
-  const double q = surface.quality(a, b, c);
-  ++s.faces;
-  s.mean_quality += q;
-  s.min_quality = (std::min)(s.min_quality, q);
-  s.min_angle = (std::min)(s.min_angle, smallest_angle(surface.points[a], surface.points[b], surface.points[c]));
-  ++s.quality_histogram[std::size_t((std::min)(9.0, (std::max)(0.0, 10 * q)))];
-}
+  template <class Metric>
+  CGAL_SMA_FLATTEN void add_face(const Metric& ma, const Metric& mb, const Metric& mc, const Vector_3& a,
+                                 const Vector_3& b, const Vector_3& c)
+  {
+    const Vector_3 ab = b - a, ac = c - a, bc = c - b;
+    const double double_area = ab.cross(ac).norm();
+    const double q = face_quality(ma, mb, mc, ab, ac, double_area);
+    ++s.faces;
+    s.mean_quality += q;
+    s.min_quality = (std::min)(s.min_quality, q);
+    ++s.quality_histogram[std::size_t((std::min)(9.0, (std::max)(0.0, 10 * q)))];
+    // the smallest angle has the largest product of its sides
+    max_cotangent = (std::max)(max_cotangent, (std::max)({ab.dot(ac), -ab.dot(bc), ac.dot(bc)}) / double_area);
+  }
+};
 
 } // namespace internal
 
@@ -73,21 +75,23 @@ template <class Execution, class Surface>
 Mesh_statistics mesh_statistics(const Execution& execution, const Surface& surface)
 {
   const Mesh_view& mesh = surface.mesh;
-  Mesh_statistics none;
-  none.min_quality = 1;
-  none.min_angle = 60;
-  Mesh_statistics s = accumulate(execution, mesh.number_of_faces(), none, [&](Mesh_statistics& sum, std::size_t f) {
+  using Sum = internal::Statistics_sum;
+  const Sum sum = accumulate(execution, mesh.number_of_faces(), Sum(), [&](Sum& part, std::size_t f) {
     if (mesh.is_removed_face(Index(f))) return;
-    internal::add_face(surface, Index(f), sum);
+    const Index a = mesh.corner[3 * f], b = mesh.corner[3 * f + 1], c = mesh.corner[3 * f + 2];
+    part.add_face(surface.metrics[a], surface.metrics[b], surface.metrics[c], surface.points[a], surface.points[b],
+                  surface.points[c]);
     for (Index h = 3 * Index(f); h < 3 * Index(f) + 3; ++h)
-      if (mesh.is_edge_owner(h)) internal::add_edge(surface, h, sum);
-  }, internal::combined);
+      if (mesh.is_edge_owner(h)) part.add_edge(surface.length(h));
+  }, std::plus<Sum>());
+  Mesh_statistics s = sum.s;
   s.vertices = count_if(execution, mesh.number_of_vertices(), [&](std::size_t v) {
     return !mesh.is_removed_vertex(Index(v));
   });
   s.in_range /= double((std::max)(s.edges, std::size_t(1)));
   s.mean_length /= double((std::max)(s.edges, std::size_t(1)));
   s.mean_quality /= double((std::max)(s.faces, std::size_t(1)));
+  s.min_angle = std::atan2(1.0, sum.max_cotangent) * 180 / M_PI;
   return s;
 }
 

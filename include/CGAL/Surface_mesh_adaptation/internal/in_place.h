@@ -15,7 +15,9 @@
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
 #include <CGAL/Surface_mesh_adaptation/parameters.h>
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -113,6 +115,20 @@ void write_metric(FaceGraph& graph, const Surface& surface, const NamedParameter
   }
 }
 
+/// Calls `use()`; an error in the metric at a vertex is reported with the place of that vertex in `graph`, not with
+/// its number after the renumbering of the import.
+template <class FaceGraph, class Use>
+void with_input_numbers(const FaceGraph& graph, const Imported_mesh<FaceGraph>& imported, const Use& use)
+{
+  try {
+    use();
+  } catch (const Invalid_metric_error& e) {
+    const auto all = vertices(graph);
+    const auto v = std::find(all.begin(), all.end(), imported.vertices[e.index()]);
+    throw Invalid_metric_error(std::size_t(std::distance(all.begin(), v)));
+  }
+}
+
 /// Runs `kernels(execution, surface)`, which returns a report, on `graph`.
 template <class Execution, class FaceGraph, class MetricField, class NamedParameters, class Kernels>
 Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, const MetricField& field,
@@ -128,7 +144,7 @@ Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, cons
   const Reference_surface<Reconstruction> reference(execution, imported.mesh, imported.points, features);
 
   Adaptation_report report;
-  with_background(execution, field, imported, reference, [&](const auto& background) {
+  const auto adapt = [&](const auto& background) {
     using Metric = std::decay_t<decltype(background.at(reference, Location(), Surface_point()))>;
     Adapted_surface<Metric, Reconstruction> surface(execution, reference, background);
     report = kernels(execution, surface);
@@ -136,7 +152,8 @@ Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, cons
     write_points(surface.points, graph, points);
     write_constraints(graph, surface, features, np);
     write_metric(graph, surface, np);
-  });
+  };
+  with_input_numbers(graph, imported, [&] { with_background(execution, field, imported, reference, adapt); });
   report.execution = Execution::name;
   report.threads = policy.concurrency();
   return report;

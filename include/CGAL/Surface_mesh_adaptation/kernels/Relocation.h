@@ -29,8 +29,9 @@ namespace Surface_mesh_adaptation {
 
 struct Relocation_thresholds
 {
-  double good_quality = 0.8;   ///< faces above may lose quality to others around the same vertex
+  double good_quality = 0.8;   ///< moves that leave no face below are always accepted
   double min_move = 0.02;      ///< metric length below which a move is not worth it
+  double large_move = 0.06;    ///< metric length above which edges may have become too short or better swapped
 };
 
 template <class Surface, class Execution>
@@ -47,6 +48,7 @@ public:
   std::size_t sweep(Sweep_counts& counts)
   {
     Sweep_counts local;
+    relaxation_ = relaxation_ == over_relaxation ? plain_relaxation : over_relaxation;
     const std::vector<Index> deferred = sweep_blocks(
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
@@ -85,7 +87,6 @@ private:
   struct Shape
   {
     double worst = 1;      ///< quality
-    double sum = 0;        ///< of qualities
     double alignment = 1;
   };
 
@@ -108,13 +109,16 @@ private:
   {
     const Star star = star_of(v);
     const bool moved = surface_.vertex_class(v) == Vertex_class::curve ? slide(v, star) : diffuse(v, star);
-    if (!moved) {
-      deactivate(surface_, v, Activity::relocate);
-      return false;
-    }
-    activate(surface_, v);
-    for (Index w : star.ring) activate(surface_, w);
-    return true;
+    if (!moved) deactivate(surface_, v, Activity::relocate);
+    return moved;
+  }
+
+  /// After a small move only the relocation of the neighbours has to be looked at again.
+  void activate_around(Index v, const Star& star, bool is_large)
+  {
+    const std::uint8_t kernels = is_large ? all_kernels : std::uint8_t(Activity::relocate);
+    activate(surface_, v, kernels);
+    for (Index w : star.ring) activate(surface_, w, kernels);
   }
 
   Star star_of(Index v) const
@@ -139,7 +143,6 @@ private:
       const double length = n.norm();
       const double q = face_quality(v.metric, star.metrics[i], star.metrics[j], ea, eb, length);
       s.worst = (std::min)(s.worst, q);
-      s.sum += q;
       double least = length;
       for (const Vector_3* m : {&v.normal, &star.normals[i], &star.normals[j]})
         if (*m != Vector_3::Zero()) least = (std::min)(least, n.dot(*m));
@@ -148,11 +151,14 @@ private:
     return s;
   }
 
-  bool is_acceptable(const Shape& before, const Shape& after) const
+  /// Whether `moved` makes good faces all around, or else better ones than before.
+  bool is_acceptable(Index v, const Star& star, const Placed_vertex<Metric>& moved) const
   {
-    if (after.alignment < (std::min)(min_alignment, before.alignment)) return false;
-    if (after.worst > before.worst * min_improvement) return true;
-    return after.worst >= thresholds_.good_quality && after.sum > before.sum;
+    const Shape after = shape(star, moved);
+    if (after.alignment >= min_alignment && after.worst >= thresholds_.good_quality) return true;
+    const Shape before = shape(star, surface_.vertex(v));
+    return after.alignment >= (std::min)(min_alignment, before.alignment) &&
+           after.worst > before.worst * min_improvement;
   }
 
   /// Displacement to the centre of mass of the faces around `v`, in its tangent plane.
@@ -175,11 +181,12 @@ private:
   {
     const Vector_3 t = displacement_to_center(v, star);
     if (!(surface_.metrics[v].length(t) > thresholds_.min_move)) return false;
-    const Shape before = shape(star, surface_.vertex(v));
-    for (const double scale : {over_relaxation, over_relaxation / 2, over_relaxation / 4}) {
+    for (const double scale : {relaxation_, relaxation_ / 2, relaxation_ / 4}) {
       const auto moved = surface_.place(surface_.reference().trace(surface_.locations[v], scale * t, true));
-      if (!is_acceptable(before, shape(star, moved))) continue;
+      if (!is_acceptable(v, star, moved)) continue;
+      const bool is_large = surface_.metrics[v].length(scale * t) > thresholds_.large_move;
       surface_.set(v, moved);
+      activate_around(v, star, is_large);
       return true;
     }
     return false;
@@ -211,12 +218,15 @@ private:
           after.worst < (std::min)(before.worst, min_slide_quality))
         continue;
       surface_.set(v, moved);
+      activate_around(v, star, true);
       return true;
     }
     return false;
   }
 
-  static constexpr double over_relaxation = 1.9; // as in SOR: smooth errors over many faces die out several times faster
+  // Alternating the two kills errors over many faces several times faster, and with the plain step in between also
+  // those from face to face, which over-relaxation alone keeps alive.
+  static constexpr double over_relaxation = 2.2, plain_relaxation = 1.0;
   static constexpr double min_improvement = 1.0 + 1e-4;
   static constexpr double min_slide_quality = 0.5;
 
@@ -224,6 +234,7 @@ private:
   Surface& surface_;
   Mesh_view& mesh_;
   Relocation_thresholds thresholds_;
+  double relaxation_ = plain_relaxation;
   std::vector<Index> position_;
 };
 

@@ -14,6 +14,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
@@ -59,7 +60,7 @@ public:
   }
 
   /// The best valid collapse that removes `s`; `h == no_index` if there is none.
-  Mesh_view::Directed_edge propose(Index s) const
+  CGAL_SMA_FLATTEN Mesh_view::Directed_edge propose(Index s) const
   {
     if (surface_.vertex_class(s) == Vertex_class::corner) return {};
     Ring<std::pair<double, Mesh_view::Directed_edge>> short_edges;

@@ -27,11 +27,15 @@ bool is_active(const Surface& surface, Index v, Activity kernel)
   return (surface.active[v] & std::uint8_t(kernel)) != 0;
 }
 
-/// Something changed at `v`: all kernels have to look again. Tasks of one sweep may share `v`, and all write the same.
+constexpr std::uint8_t all_kernels = 0xff;
+
+/// Something changed at `v`: the kernels have to look again. Tasks of one sweep may share `v`: the bits add up.
 template <class Surface>
-void activate(Surface& surface, Index v)
+void activate(Surface& surface, Index v, std::uint8_t kernels = all_kernels)
 {
-  boost::atomic_ref<std::uint8_t>(surface.active[v]).store(0xff, boost::memory_order_relaxed);
+  boost::atomic_ref<std::uint8_t> bits(surface.active[v]);
+  if ((bits.load(boost::memory_order_relaxed) & kernels) != kernels)
+    bits.fetch_or(kernels, boost::memory_order_relaxed);
 }
 
 /// `kernel` looked at `v` and left it. \pre no task that runs concurrently activates `v`
