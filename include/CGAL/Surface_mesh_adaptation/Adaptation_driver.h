@@ -60,13 +60,14 @@ private:
     const auto swap = [&](Sweep_counts& c) { return swapping_.sweep(c); };
     const auto relocate = [&](Sweep_counts& c) { return relocation_.sweep(c); };
 
-    // Long edges of needles are halved many times over: unless what this leaves behind is mended in between,
-    // the pieces of one needle fill the surface with others.
+    // Short edges go first: splitting the long ones beside them would multiply what is removed afterwards. And long
+    // edges of needles are halved many times over: unless what this leaves behind is mended in between, the pieces of
+    // one needle fill the surface with others.
     for (std::size_t i = 0; i < max_refine_sweeps; ++i) {
+      changed += run_kernel("simplify", i == 0 ? max_simplify_sweeps : 1, simplify);
+      changed += run_kernel("swap", 1, swap);
       changed += split = run_kernel("refine", 1, refine);
       if (split <= negligible(refine_share)) break;
-      changed += run_kernel("simplify", 1, simplify);
-      changed += run_kernel("swap", 1, swap);
     }
     changed += run_kernel("simplify", max_simplify_sweeps, simplify);
     changed += run_kernel("swap", max_swap_sweeps, swap);
@@ -117,7 +118,7 @@ private:
   static constexpr std::size_t max_simplify_sweeps = 12;
   static constexpr std::size_t max_swap_sweeps = 4;
   static constexpr std::size_t max_relocate_sweeps = 2;
-  static constexpr double negligible_share = 0.002;
+  static constexpr double negligible_share = 0.004;
   static constexpr double refine_share = 0.01;           // a sweep rewrites the mesh, even for a single edge, so
   static constexpr double first_refine_share = 0.0005;   // a few edges wait for the first sweep of the next round
 

@@ -44,7 +44,7 @@ public:
   std::vector<Metric> metrics;
   std::vector<Location> locations;
   std::vector<Index> origin;         ///< vertex of the input that a vertex was, or `no_index`
-  std::vector<std::uint8_t> active;  ///< whether something at the vertex changed since it was last examined
+  std::vector<std::uint8_t> active;  ///< a bit for each kernel that has to look at the vertex
 
   template <class Execution>
   Adapted_surface(const Execution& execution, const Reference& reference, const Background& background)
@@ -53,21 +53,19 @@ public:
     const std::size_t n = mesh.number_of_vertices();
     resize_vertices(n);
     for_each_index(execution, n, [&](std::size_t v) {
-      set(Index(v), place(reference_->location_of_vertex(Index(v))));
-      points[v] = reference_->points[v];
+      const Location l = reference_->location_of_vertex(Index(v));
+      const bool is_smooth = l.kind == Vertex_class::smooth;
+      set(Index(v), place(l, {reference_->points[v], is_smooth ? reference_->normals.at(mesh.outgoing[v])
+                                                              : Vector_3(Vector_3::Zero())}));
       origin[v] = Index(v);
     });
-    std::fill(active.begin(), active.end(), std::uint8_t(1));
+    std::fill(active.begin(), active.end(), std::uint8_t(0xff));
   }
 
   const Reference& reference() const { return *reference_; }
   const Background& background() const { return *background_; }
 
-  Placed_vertex<Metric> place(const Location& l) const
-  {
-    const Surface_point p = reference_->evaluate(l);
-    return {l, p.position, p.normal, background_->at(*reference_, l, p)};
-  }
+  Placed_vertex<Metric> place(const Location& l) const { return place(l, reference_->evaluate(l)); }
 
   Placed_vertex<Metric> vertex(Index v) const { return {locations[v], points[v], normals[v], metrics[v]}; }
 
@@ -90,9 +88,12 @@ public:
 
   double length(Index h) const { return length(mesh.source(h), mesh.target(h)); }
 
-  CGAL_SMA_FLATTEN double quality(Index a, Index b, Index c) const
+  CGAL_SMA_FLATTEN double quality(Index a, Index b, Index c) const { return squared_shape(a, b, c).quality(); }
+
+  /// `quality(a, b, c) >= q`, without a root.
+  CGAL_SMA_FLATTEN bool has_quality(Index a, Index b, Index c, double q) const
   {
-    return face_quality(metrics[a], metrics[b], metrics[c], points[b] - points[a], points[c] - points[a]);
+    return squared_shape(a, b, c).is_at_least(q);
   }
 
   /// Smallest cosine between the normal of the face and the surface normals of its corners; 1 if none of them has one.
@@ -120,29 +121,32 @@ public:
   /// Where an edge is split: the middle of its arc on a feature curve, else the point of the surface next to the middle
   /// of the edge, reached from a neighbouring vertex in the same smooth sector. Where the walk from one of them ends at
   /// a feature that lies in between, the next one is tried.
-  Location middle(Index h) const
+  Placed_vertex<Metric> middle(Index h) const
   {
     const Index a = (std::min)(mesh.source(h), mesh.target(h)), b = (std::max)(mesh.source(h), mesh.target(h));
     if (mesh.is_feature(h)) {
       const auto arc = reference_->arc(mesh.curve[h], locations[a], locations[b]);
-      return reference_->on_curve(mesh.curve[h], 0.5 * (arc.first + arc.second));
+      return place(reference_->on_curve(mesh.curve[h], 0.5 * (arc.first + arc.second)));
     }
     const Vector_3 target = 0.5 * (points[a] + points[b]);
     const double length = (points[b] - points[a]).norm();
-    Location best;
+    typename Reference::Located_point best;
     double best_distance = -1;
-    const auto try_from = [&](const Location& start) {
-      const Location l = reference_->locate(start, target, split_precision * length);
-      const double distance = (reference_->evaluate(l).position - target).norm();
+    const auto try_from = [&](const typename Reference::Located_point& start) {
+      const auto x = reference_->locate(start, target, split_precision * length);
+      const double distance = (x.point.position - target).norm();
       if (best_distance >= 0 && distance >= best_distance) return;
-      best = l;
+      best = x;
       best_distance = distance;
     };
     for (Index v : {a, b, mesh.apex(h), mesh.apex(mesh.twin[h])})
       if (vertex_class(v) == Vertex_class::smooth && !(best_distance >= 0 && best_distance <= split_distance * length))
-        try_from(locations[v]);
-    if (best_distance < 0) try_from(reference_->smooth_location_near(locations[a], target));
-    return best;
+        try_from({locations[v], {points[v], normals[v]}});
+    if (best_distance < 0) {
+      const Location start = reference_->smooth_location_near(locations[a], target);
+      try_from({start, reference_->evaluate(start)});
+    }
+    return place(best.location, best.point);
   }
 
   void resize_vertices(std::size_t n)
@@ -152,10 +156,21 @@ public:
     metrics.resize(n);
     locations.resize(n);
     origin.resize(n, no_index);
-    active.resize(n, 1);
+    active.resize(n, 0xff);
   }
 
 private:
+  internal::Squared_shape squared_shape(Index a, Index b, Index c) const
+  {
+    const Vector_3 e1 = points[b] - points[a], e2 = points[c] - points[a];
+    return internal::squared_shape(metrics[a], metrics[b], metrics[c], e1, e2, e1.cross(e2));
+  }
+
+  Placed_vertex<Metric> place(const Location& l, const Surface_point& p) const
+  {
+    return {l, p.position, p.normal, background_->at(*reference_, l, p)};
+  }
+
   static constexpr double split_precision = 0.02; // of the edge: later moves undo the rest
   static constexpr double split_distance = 0.2;   // of the edge: more means that the walk did not get there
 

@@ -95,12 +95,18 @@ public:
   Features run(const Execution& execution)
   {
     mark_feature_edges(execution);
+    // what follows is sequential, but only along the features
+    feature_vertices_ = pack(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
+      return feature_degree(Index(v)) > 0;
+    });
     if (parameters_.detect_ridges) remove_isolated_ridges();
     features_.vertex_class.assign(mesh_.number_of_vertices(), Vertex_class::smooth);
     features_.node_of_vertex.assign(mesh_.number_of_vertices(), Curve_node());
     for_each_index(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
-      features_.vertex_class[v] = classify(Index(v));
+      if (!parameters_.vertex_is_constrained.empty() && parameters_.vertex_is_constrained[v])
+        features_.vertex_class[v] = Vertex_class::corner;
     });
+    for (const Index v : feature_vertices_) features_.vertex_class[v] = classify(v);
     make_corners_on_tiny_cycles();
     chain_curves();
     return std::move(features_);
@@ -127,10 +133,14 @@ private:
   {
     for_each_index(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
       const Index h = Index(i);
+      if (!mesh_.is_edge_owner(h)) return;
       const bool constrained = !parameters_.halfedge_is_constrained.empty() &&
                                parameters_.halfedge_is_constrained[h] != 0;
-      if (mesh_.is_border(h) || constrained) is_feature_[h] = kept;
-      else if (parameters_.detect_ridges && is_ridge(mesh_.edge_owner(h))) is_feature_[h] = ridge;
+      std::uint8_t mark = none;
+      if (mesh_.is_border(h) || constrained) mark = kept;
+      else if (parameters_.detect_ridges && is_ridge(h)) mark = ridge;
+      is_feature_[h] = mark;
+      if (!mesh_.is_border(h)) is_feature_[mesh_.twin[h]] = mark;
     });
   }
 
@@ -157,12 +167,12 @@ private:
   void remove_isolated_ridges()
   {
     std::vector<std::uint8_t> visited(mesh_.number_of_vertices(), 0);
-    for (std::size_t v = 0; v < mesh_.number_of_vertices(); ++v) {
-      if (visited[v] || feature_degree(Index(v)) != 1) continue;
-      std::vector<Index> chain{Index(v)};
+    for (const Index v : feature_vertices_) {
+      if (visited[v] || feature_degree(v) != 1) continue;
+      std::vector<Index> chain{v};
       bool isolated = true;
       Index previous = no_index;
-      for (Index current = Index(v); current != no_index;) {
+      for (Index current = v; current != no_index;) {
         visited[current] = 1;
         const std::size_t degree = feature_degree(current);
         Index next = no_index;
@@ -221,11 +231,11 @@ private:
   void make_corners_on_tiny_cycles()
   {
     std::vector<std::uint8_t> visited(mesh_.number_of_vertices(), 0);
-    for (std::size_t v = 0; v < mesh_.number_of_vertices(); ++v) {
+    for (const Index v : feature_vertices_) {
       if (visited[v] || features_.vertex_class[v] != Vertex_class::curve) continue;
       Index second = no_index;
-      for_each_feature_neighbor(Index(v), [&](Index w, std::uint8_t) { second = w; });
-      const std::vector<Index> chain = chain_from(Index(v), second);
+      for_each_feature_neighbor(v, [&](Index w, std::uint8_t) { second = w; });
+      const std::vector<Index> chain = chain_from(v, second);
       for (Index w : chain) visited[w] = 1;
       if (chain.front() != chain.back()) continue;
       double length = 0, longest = 0;
@@ -243,12 +253,12 @@ private:
   {
     mesh_.curve.assign(mesh_.number_of_halfedges(), no_curve);
     const auto start_chains = [&](Vertex_class kind) {
-      for (std::size_t v = 0; v < mesh_.number_of_vertices(); ++v) {
+      for (const Index v : feature_vertices_) {
         if (features_.vertex_class[v] != kind) continue;
         Ring<Index> along;
-        for_each_feature_neighbor(Index(v), [&](Index w, std::uint8_t) { along.push_back(w); });
+        for_each_feature_neighbor(v, [&](Index w, std::uint8_t) { along.push_back(w); });
         for (Index w : along)
-          if (mesh_.curve[any_halfedge(Index(v), w)] == no_curve) add_curve(chain_from(Index(v), w));
+          if (mesh_.curve[any_halfedge(v, w)] == no_curve) add_curve(chain_from(v, w));
       }
     };
     start_chains(Vertex_class::corner);
@@ -296,6 +306,7 @@ private:
   const std::vector<Vector_3>& points_;
   const Feature_parameters& parameters_;
   std::vector<std::uint8_t> is_feature_;
+  std::vector<Index> feature_vertices_;
   Features features_;
 };
 

@@ -81,10 +81,11 @@ public:
     Index f = l.cell;
     double b[3] = {1 - l.u - l.v, l.u, l.v};
     Face_frame frame = face_frame(f);
-    Vector_3 step = d - d.dot(frame.normal) * frame.normal;
+    if (!(frame.squared_double_area > 0)) return l;
+    Vector_3 step = d - d.dot(frame.normal) / frame.squared_double_area * frame.normal;
     if (keep_length) {
-      const double length = step.norm();
-      if (length > 0) step *= d.norm() / length;
+      const double squared_length = step.squaredNorm();
+      if (squared_length > 0) step *= std::sqrt(d.squaredNorm() / squared_length);
     }
     for (int crossings = 0; crossings < max_crossings; ++crossings) {
       const int exit = advance(frame, step, b);
@@ -92,11 +93,11 @@ public:
       const Index h = 3 * f + Index((exit + 1) % 3);
       if (mesh.is_feature(h) || mesh.is_border(h)) break;
       const Index t = mesh.twin[h];
-      const Vector_3 edge = (points[mesh.target(h)] - points[mesh.source(h)]).normalized();
-      const double along = step.dot(edge), across = step.dot(edge.cross(frame.normal));
+      const Face_frame next = face_frame(Mesh_view::face(t));
+      if (!(next.squared_double_area > 0)) break;
+      step = unfolded(step, (points[mesh.target(h)] - points[mesh.source(h)]).normalized(), frame, next);
       f = Mesh_view::face(t);
-      frame = face_frame(f);
-      step = along * edge + across * edge.cross(frame.normal);
+      frame = next;
       const double at_target = b[(exit + 2) % 3], at_source = b[(exit + 1) % 3];
       const int k = int(t % 3);
       b[k] = at_target;
@@ -106,18 +107,26 @@ public:
     return {Vertex_class::smooth, f, b[1], b[2]};
   }
 
-  /// The location near `l` whose point is closest to `target`, found by walking: the residual is projected onto the
-  /// tangent plane and traced, until it is shorter than `precision`. \pre `l.kind` is smooth
-  Location locate(Location l, const Vector_3& target, double precision) const
+  /// A smooth location and the point there.
+  struct Located_point
   {
+    Location location;
+    Surface_point point;
+  };
+
+  /// The location near `start` whose point is closest to `target`, found by walking: the residual is projected onto the
+  /// tangent plane and traced, until it is shorter than `precision`. \pre `start.location.kind` is smooth
+  Located_point locate(const Located_point& start, const Vector_3& target, double precision) const
+  {
+    Located_point x = start;
     for (int i = 0; i < max_corrections; ++i) {
-      const Surface_point x = evaluate(l);
-      Vector_3 residual = target - x.position;
-      residual -= residual.dot(x.normal) * x.normal;
+      Vector_3 residual = target - x.point.position;
+      residual -= residual.dot(x.point.normal) * x.point.normal;
       if (residual.squaredNorm() <= precision * precision) break;
-      l = trace(l, residual, false);
+      x.location = trace(x.location, residual, false);
+      x.point = evaluate(x.location);
     }
-    return l;
+    return x;
   }
 
   /// A smooth location in the faces around a curve or corner location, from which to walk to `target`:
@@ -184,8 +193,8 @@ private:
 
   struct Face_frame
   {
-    Vector_3 e1, e2, normal; // unit normal
-    double double_area;
+    Vector_3 e1, e2, normal; // of length: twice the area
+    double squared_double_area;
   };
 
   Face_frame face_frame(Index f) const
@@ -196,18 +205,23 @@ private:
     frame.e1 = points[mesh.corner[h + 1]] - p;
     frame.e2 = points[mesh.corner[h + 2]] - p;
     frame.normal = frame.e1.cross(frame.e2);
-    frame.double_area = frame.normal.norm();
-    if (frame.double_area > 0) frame.normal /= frame.double_area;
+    frame.squared_double_area = frame.normal.squaredNorm();
     return frame;
+  }
+
+  /// `step` turned about the common edge from the plane of `from` into that of `to`.
+  static Vector_3 unfolded(const Vector_3& step, const Vector_3& edge, const Face_frame& from, const Face_frame& to)
+  {
+    const double across = step.dot(edge.cross(from.normal)) / std::sqrt(from.squared_double_area * to.squared_double_area);
+    return step.dot(edge) * edge + across * edge.cross(to.normal);
   }
 
   /// Moves `b` by `step`, or to the border of the face: then `step` is shortened by what was used and the corner
   /// opposite to the edge that was met is returned, else -1.
   static int advance(const Face_frame& frame, Vector_3& step, double (&b)[3])
   {
-    if (!(frame.double_area > 0)) return -1;
-    const double d1 = step.cross(frame.e2).dot(frame.normal) / frame.double_area;
-    const double d2 = frame.e1.cross(step).dot(frame.normal) / frame.double_area;
+    const double d1 = step.cross(frame.e2).dot(frame.normal) / frame.squared_double_area;
+    const double d2 = frame.e1.cross(step).dot(frame.normal) / frame.squared_double_area;
     const double db[3] = {-d1 - d2, d1, d2};
     double s = 1;
     int exit = -1;
@@ -284,10 +298,10 @@ private:
   Location closest_location_in_face(Index f, const Vector_3& target) const
   {
     const Face_frame frame = face_frame(f);
-    if (!(frame.double_area > 0)) return {Vertex_class::smooth, f, 1.0 / 3, 1.0 / 3};
+    if (!(frame.squared_double_area > 0)) return {Vertex_class::smooth, f, 1.0 / 3, 1.0 / 3};
     const Vector_3 d = target - points[mesh.corner[3 * std::size_t(f)]];
-    const double u = (std::max)(0.0, d.cross(frame.e2).dot(frame.normal) / frame.double_area);
-    const double v = (std::max)(0.0, frame.e1.cross(d).dot(frame.normal) / frame.double_area);
+    const double u = (std::max)(0.0, d.cross(frame.e2).dot(frame.normal) / frame.squared_double_area);
+    const double v = (std::max)(0.0, frame.e1.cross(d).dot(frame.normal) / frame.squared_double_area);
     const double sum = (std::max)(1.0, u + v);
     return {Vertex_class::smooth, f, u / sum, v / sum};
   }

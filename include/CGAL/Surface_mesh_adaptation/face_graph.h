@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -41,68 +42,156 @@ struct Imported_mesh
   std::vector<halfedge_descriptor> halfedges;
 };
 
-/// \throws Non_triangular_face_error, Non_manifold_vertex_error, Mesh_too_large_error
+/// Numbers the elements of any face graph in the order in which it lists them. Not to be read concurrently: the dynamic
+/// properties of some graphs are hash tables that reading may change.
 template <class FaceGraph>
-void read_connectivity(const FaceGraph& graph, Imported_mesh<FaceGraph>& result)
+class Numbering
 {
-  const auto vertex_id = get(CGAL::dynamic_vertex_property_t<Index>(), graph);
-  const auto face_id = get(CGAL::dynamic_face_property_t<Index>(), graph);
-  for (const auto v : vertices(graph)) {
-    put(vertex_id, v, Index(result.vertices.size()));
-    result.vertices.push_back(v);
-  }
-  Index number_of_faces = 0;
-  for (const auto f : faces(graph)) {
-    if (number_of_faces >= Index(std::numeric_limits<std::int32_t>::max() / 3)) throw Mesh_too_large_error();
-    const auto h = halfedge(f, graph);
-    if (next(next(next(h, graph), graph), graph) != h) throw Non_triangular_face_error(number_of_faces);
-    put(face_id, f, number_of_faces++);
-    for (const auto g : {h, next(h, graph), next(next(h, graph), graph)}) result.halfedges.push_back(g);
-  }
-  Mesh_view& mesh = result.mesh;
-  const std::size_t n = result.halfedges.size();
-  mesh.corner.resize(n);
-  mesh.twin.resize(n);
-  mesh.curve.assign(n, no_curve);
-  mesh.outgoing.assign(result.vertices.size(), no_index);
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto h = result.halfedges[i], o = opposite(h, graph);
-    const Index v = get(vertex_id, source(h, graph));
-    mesh.corner[i] = v;
-    mesh.twin[i] = no_index;
-    if (!is_border(o, graph)) {
-      const std::size_t first = 3 * std::size_t(get(face_id, face(o, graph)));
-      std::size_t k = 0;
-      while (result.halfedges[first + k] != o) ++k;
-      mesh.twin[i] = Index(first + k);
+public:
+  using vertex_descriptor = typename boost::graph_traits<FaceGraph>::vertex_descriptor;
+  using face_descriptor = typename boost::graph_traits<FaceGraph>::face_descriptor;
+
+  explicit Numbering(const FaceGraph& graph)
+    : vertex_id_(get(CGAL::dynamic_vertex_property_t<Index>(), graph))
+    , face_id_(get(CGAL::dynamic_face_property_t<Index>(), graph))
+  {
+    for (const auto v : CGAL::vertices(graph)) {
+      put(vertex_id_, v, Index(vertices_.size()));
+      vertices_.push_back(v);
     }
-    if (mesh.outgoing[v] == no_index || mesh.twin[i] == no_index) mesh.outgoing[v] = Index(i);
+    for (const auto f : CGAL::faces(graph)) {
+      put(face_id_, f, Index(faces_.size()));
+      faces_.push_back(f);
+    }
   }
+
+  std::size_t number_of_vertices() const { return vertices_.size(); }
+  std::size_t number_of_faces() const { return faces_.size(); }
+  vertex_descriptor vertex(std::size_t i) const { return vertices_[i]; }
+  face_descriptor face(std::size_t i) const { return faces_[i]; }
+  Index id(vertex_descriptor v) const { return get(vertex_id_, v); }
+  Index face_id(face_descriptor f) const { return get(face_id_, f); }
+
+private:
+  typename boost::property_map<FaceGraph, CGAL::dynamic_vertex_property_t<Index>>::const_type vertex_id_;
+  typename boost::property_map<FaceGraph, CGAL::dynamic_face_property_t<Index>>::const_type face_id_;
+  std::vector<vertex_descriptor> vertices_;
+  std::vector<face_descriptor> faces_;
+};
+
+/// A `Surface_mesh` without removed elements is numbered by its own indices.
+template <class Point>
+class Compact_numbering
+{
+public:
+  using Mesh = CGAL::Surface_mesh<Point>;
+  using vertex_descriptor = typename Mesh::Vertex_index;
+  using face_descriptor = typename Mesh::Face_index;
+
+  explicit Compact_numbering(const Mesh& mesh) : mesh_(mesh) {}
+
+  std::size_t number_of_vertices() const { return mesh_.number_of_vertices(); }
+  std::size_t number_of_faces() const { return mesh_.number_of_faces(); }
+  vertex_descriptor vertex(std::size_t i) const { return vertex_descriptor(typename Mesh::size_type(i)); }
+  face_descriptor face(std::size_t i) const { return face_descriptor(typename Mesh::size_type(i)); }
+  Index id(vertex_descriptor v) const { return Index(v); }
+  Index face_id(face_descriptor f) const { return Index(f); }
+
+private:
+  const Mesh& mesh_;
+};
+
+template <class Execution, class FaceGraph, class Read>
+void with_numbering(const Execution&, const FaceGraph& graph, const Read& read)
+{
+  read(Sequential_execution(), Numbering<FaceGraph>(graph));
+}
+
+template <class Execution, class Point, class Read>
+void with_numbering(const Execution& execution, const CGAL::Surface_mesh<Point>& mesh, const Read& read)
+{
+  if (mesh.has_garbage()) read(Sequential_execution(), Numbering<CGAL::Surface_mesh<Point>>(mesh));
+  else read(execution, Compact_numbering<Point>(mesh));
+}
+
+/// \throws Non_triangular_face_error, Mesh_too_large_error
+template <class Execution, class FaceGraph, class Number>
+void read_connectivity(const Execution& execution, const FaceGraph& graph, const Number& number,
+                       Imported_mesh<FaceGraph>& result)
+{
+  const std::size_t nv = number.number_of_vertices(), nf = number.number_of_faces();
+  if (nf > std::size_t(std::numeric_limits<std::int32_t>::max() / 3)) throw Mesh_too_large_error();
+  const std::size_t first_bad = reduce(execution, nf, nf, [&](std::size_t f) {
+    const auto h = halfedge(number.face(f), graph);
+    return next(next(next(h, graph), graph), graph) == h && next(h, graph) != h ? nf : f;
+  }, [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
+  if (first_bad < nf) throw Non_triangular_face_error(first_bad);
+
+  Mesh_view& mesh = result.mesh;
+  mesh.corner.resize(3 * nf);
+  mesh.twin.resize(3 * nf);
+  mesh.curve.assign(3 * nf, no_curve);
+  mesh.outgoing.resize(nv);
+  result.halfedges.resize(3 * nf);
+  result.vertices.resize(nv);
+  // the number of a halfedge that has a face
+  const auto id = [&](auto h) {
+    const auto f = face(h, graph);
+    Index i = 3 * number.face_id(f);
+    for (auto g = halfedge(f, graph); g != h; g = next(g, graph)) ++i;
+    return i;
+  };
+  for_each_index(execution, nf, [&](std::size_t f) {
+    auto h = halfedge(number.face(f), graph);
+    for (std::size_t i = 3 * f; i < 3 * f + 3; ++i, h = next(h, graph)) {
+      const auto o = opposite(h, graph);
+      result.halfedges[i] = h;
+      mesh.corner[i] = number.id(source(h, graph));
+      mesh.twin[i] = is_border(o, graph) ? no_index : id(o);
+    }
+  });
+  for_each_index(execution, nv, [&](std::size_t v) {
+    result.vertices[v] = number.vertex(v);
+    const auto h = halfedge(number.vertex(v), graph); // arrives at v
+    mesh.outgoing[v] = no_index;
+    if (h == boost::graph_traits<FaceGraph>::null_halfedge()) return;
+    const auto o = opposite(h, graph);
+    if (is_border(h, graph) && is_border(o, graph)) return;
+    mesh.outgoing[v] = mesh.first_of_fan(is_border(o, graph) ? id(next(h, graph)) : id(o));
+  });
 }
 
 /// \throws Non_manifold_vertex_error, Non_simplicial_edge_error
 template <class Execution>
 void check_fans(const Execution& execution, const Mesh_view& mesh)
 {
-  std::vector<Index> faces_at_vertex(mesh.number_of_vertices(), 0);
-  for (const Index v : mesh.corner) ++faces_at_vertex[v];
   const std::size_t n = mesh.number_of_vertices();
-  enum : std::size_t { manifold = 0, simplicial = 1 };
-  const auto first_bad = [&](std::size_t what) {
-    return reduce(execution, n, n, [&](std::size_t v) {
-      if (mesh.outgoing[v] == no_index) return what == manifold ? v : n;
-      Ring<Index> ring;
-      Index faces = 0;
-      mesh.for_each_outgoing(Index(v), [&](Index) { ++faces; });
-      if (what == manifold) return faces == faces_at_vertex[v] ? n : v;
-      mesh.for_each_neighbor(Index(v), [&](Index w) { ring.push_back(w); });
-      std::sort(ring.begin(), ring.end());
-      return std::adjacent_find(ring.begin(), ring.end()) == ring.end() ? n : v;
-    }, [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
+  const auto first = [&](const auto& is_bad) {
+    return reduce(execution, n, n, [&](std::size_t v) { return is_bad(Index(v)) ? v : n; },
+                  [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
   };
-  const std::size_t non_manifold = first_bad(manifold);
+  const auto faces_in_fan = [&](std::size_t v) {
+    Index faces = 0;
+    if (mesh.outgoing[v] != no_index) mesh.for_each_outgoing(Index(v), [&](Index) { ++faces; });
+    return faces;
+  };
+  const std::size_t corners_in_fans = reduce(execution, n, std::size_t(0), [&](std::size_t v) {
+    return std::size_t(faces_in_fan(v));
+  }, std::plus<std::size_t>());
+  std::size_t non_manifold = first([&](Index v) { return mesh.outgoing[v] == no_index; });
+  if (corners_in_fans != mesh.number_of_halfedges()) { // some corner belongs to a second fan of its vertex
+    std::vector<Index> faces_at_vertex(n, 0);
+    for (const Index v : mesh.corner) ++faces_at_vertex[v];
+    non_manifold = (std::min)(non_manifold, first([&](Index v) { return faces_in_fan(v) != faces_at_vertex[v]; }));
+  }
   if (non_manifold < n) throw Non_manifold_vertex_error(non_manifold);
-  const std::size_t non_simplicial = first_bad(simplicial);
+
+  const std::size_t non_simplicial = first([&](Index v) {
+    Ring<Index> ring;
+    mesh.for_each_neighbor(v, [&](Index w) { ring.push_back(w); });
+    std::sort(ring.begin(), ring.end());
+    return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
+  });
   if (non_simplicial < n) throw Non_simplicial_edge_error(non_simplicial);
 }
 
@@ -112,15 +201,19 @@ Imported_mesh<FaceGraph> read_face_graph(const Execution& execution, const FaceG
                                          const VertexPointMap& point_map)
 {
   Imported_mesh<FaceGraph> result;
-  read_connectivity(graph, result);
-  if (result.halfedges.empty()) throw Empty_mesh_error();
-  check_fans(execution, result.mesh);
-  result.points.reserve(result.vertices.size());
-  for (std::size_t i = 0; i < result.vertices.size(); ++i) {
-    const auto& p = get(point_map, result.vertices[i]);
-    result.points.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-    if (!result.points.back().allFinite()) throw Non_finite_coordinate_error(i);
-  }
+  with_numbering(execution, graph, [&](const auto& policy, const auto& number) {
+    if (number.number_of_faces() == 0) throw Empty_mesh_error();
+    read_connectivity(policy, graph, number, result);
+    check_fans(execution, result.mesh);
+    const std::size_t n = result.vertices.size();
+    result.points.resize(n);
+    const std::size_t bad = reduce(policy, n, n, [&](std::size_t v) {
+      const auto& p = get(point_map, result.vertices[v]);
+      result.points[v] = Vector_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+      return result.points[v].allFinite() ? n : v;
+    }, [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
+    if (bad < n) throw Non_finite_coordinate_error(bad);
+  });
   return result;
 }
 

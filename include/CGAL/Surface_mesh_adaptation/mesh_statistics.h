@@ -57,14 +57,14 @@ struct Statistics_sum
                                  const Vector_3& b, const Vector_3& c)
   {
     const Vector_3 ab = b - a, ac = c - a, bc = c - b;
-    const double double_area = ab.cross(ac).norm();
-    const double q = face_quality(ma, mb, mc, ab, ac, double_area);
+    const Vector_3 n = ab.cross(ac);
+    const double q = squared_shape(ma, mb, mc, ab, ac, n).quality();
     ++s.faces;
     s.mean_quality += q;
     s.min_quality = (std::min)(s.min_quality, q);
     ++s.quality_histogram[std::size_t((std::min)(9.0, (std::max)(0.0, 10 * q)))];
     // the smallest angle has the largest product of its sides
-    max_cotangent = (std::max)(max_cotangent, (std::max)({ab.dot(ac), -ab.dot(bc), ac.dot(bc)}) / double_area);
+    max_cotangent = (std::max)(max_cotangent, (std::max)({ab.dot(ac), -ab.dot(bc), ac.dot(bc)}) / n.norm());
   }
 };
 

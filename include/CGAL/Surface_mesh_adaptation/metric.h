@@ -37,8 +37,6 @@ struct Anisotropic_metric
 constexpr double min_unit_length = 0.70710678118654752;
 constexpr double max_unit_length = 1.41421356237309505;
 
-constexpr double square_root_of_3 = 1.73205080756887729;
-
 /// Metric length of the edge `e` between vertices with metrics `a` and `b`: the trapezoidal rule.
 template <class Metric>
 double edge_length(const Metric& a, const Metric& b, const Vector_3& e)
@@ -51,45 +49,62 @@ inline double edge_length(const Isotropic_metric& a, const Isotropic_metric& b, 
   return 0.5 * (a.inverse_size + b.inverse_size) * e.norm();
 }
 
-/// Quality of a triangle with edge vectors `e1`, `e2` from its first corner and twice the area `double_area`: 1 if
-/// equilateral in the mean metric of its corners, 0 if degenerate.
-inline double face_quality(const Isotropic_metric&, const Isotropic_metric&, const Isotropic_metric&,
-                           const Vector_3& e1, const Vector_3& e2, double double_area)
+namespace internal {
+
+/// A third of the squared quality is `squared_double_area / half_sum^2`, with the area and half the sum of the squared
+/// edge lengths in the metric.
+struct Squared_shape
 {
-  const double sum = e1.squaredNorm() + e2.squaredNorm() - e1.dot(e2);
-  return sum > 0 ? square_root_of_3 * double_area / sum : 0;
+  double squared_double_area, half_sum;
+
+  double quality() const
+  {
+    return squared_double_area > 0 && half_sum > 0 ? std::sqrt(3 * squared_double_area) / half_sum : 0;
+  }
+
+  /// `quality() >= q`, without a root.
+  bool is_at_least(double q) const { return 3 * squared_double_area >= q * q * half_sum * half_sum; }
+};
+
+/// Shape of a triangle with edge vectors `e1`, `e2` from its first corner and their cross product `n`, in the mean
+/// metric of its corners.
+inline Squared_shape squared_shape(const Isotropic_metric&, const Isotropic_metric&, const Isotropic_metric&,
+                                   const Vector_3& e1, const Vector_3& e2, const Vector_3& n)
+{
+  return {n.squaredNorm(), e1.squaredNorm() + e2.squaredNorm() - e1.dot(e2)};
 }
 
-inline double face_quality(const Anisotropic_metric& a, const Anisotropic_metric& b, const Anisotropic_metric& c,
-                           const Vector_3& e1, const Vector_3& e2, double)
+inline Squared_shape squared_shape(const Anisotropic_metric& a, const Anisotropic_metric& b,
+                                   const Anisotropic_metric& c, const Vector_3& e1, const Vector_3& e2, const Vector_3&)
 {
   const Metric_tensor_3 mean = a.m + b.m + c.m; // times 3: quality does not depend on the scale
   const Vector_3 m1 = mean * e1, m2 = mean * e2;
   const double e11 = e1.dot(m1), e12 = e1.dot(m2), e22 = e2.dot(m2);
-  const double det = e11 * e22 - e12 * e12, sum = e11 + e22 - e12;
-  return det > 0 && sum > 0 ? std::sqrt(3 * det) / sum : 0;
+  return {e11 * e22 - e12 * e12, e11 + e22 - e12};
 }
 
+} // namespace internal
+
+/// Quality of a triangle with edge vectors `e1`, `e2` from its first corner: 1 if equilateral in the mean metric of its
+/// corners, 0 if degenerate.
 template <class Metric>
 double face_quality(const Metric& a, const Metric& b, const Metric& c, const Vector_3& e1, const Vector_3& e2)
 {
-  return face_quality(a, b, c, e1, e2, e1.cross(e2).norm());
+  return internal::squared_shape(a, b, c, e1, e2, e1.cross(e2)).quality();
 }
 
-/// Relative density of the metric at three corners over a triangle, for weighting its area.
-inline double face_density(const Isotropic_metric& a, const Isotropic_metric& b, const Isotropic_metric& c,
-                           const Vector_3&, const Vector_3&, double area)
+/// Relative mass of a triangle: `projected_area`, up to a constant, times the density of the metric at its corners.
+inline double face_mass(const Isotropic_metric& a, const Isotropic_metric& b, const Isotropic_metric& c,
+                        const Vector_3&, const Vector_3&, double projected_area)
 {
-  return area * (a.density() + b.density() + c.density());
+  return projected_area * (a.density() + b.density() + c.density());
 }
 
-inline double face_density(const Anisotropic_metric& a, const Anisotropic_metric& b, const Anisotropic_metric& c,
-                           const Vector_3& e1, const Vector_3& e2, double)
+inline double face_mass(const Anisotropic_metric& a, const Anisotropic_metric& b, const Anisotropic_metric& c,
+                        const Vector_3& e1, const Vector_3& e2, double projected_area)
 {
-  const Metric_tensor_3 sum = a.m + b.m + c.m;
-  const Vector_3 m1 = sum * e1, m2 = sum * e2;
-  const double e12 = e1.dot(m2);
-  return std::sqrt((std::max)(0.0, e1.dot(m1) * e2.dot(m2) - e12 * e12));
+  const double squared = internal::squared_shape(a, b, c, e1, e2, Vector_3()).squared_double_area;
+  return std::copysign(std::sqrt((std::max)(0.0, squared)), projected_area);
 }
 
 } // namespace Surface_mesh_adaptation

@@ -36,12 +36,16 @@ inline Vector_3 face_normal(const Mesh_view& mesh, const std::vector<Vector_3>& 
 template <class Sector>
 void for_each_sector(const Mesh_view& mesh, Index v, const Sector& sector)
 {
+  std::size_t n = 0, features = 0;
+  mesh.for_each_outgoing(v, [&](Index h) {
+    ++n;
+    features += mesh.is_feature(h);
+  });
+  if (features == 0) return sector(mesh.outgoing[v], n);
   Ring<Index> fan;
   mesh.for_each_outgoing(v, [&](Index h) { fan.push_back(h); });
-  const std::size_t n = fan.size();
   std::size_t start = 0;
-  while (start < n && !mesh.is_feature(fan[start])) ++start;
-  if (start == n) return sector(fan[0], n);
+  while (!mesh.is_feature(fan[start])) ++start;
   for (std::size_t i = 0; i < n;) {
     std::size_t length = 1;
     while (i + length < n && !mesh.is_feature(fan[(start + i + length) % n])) ++length;

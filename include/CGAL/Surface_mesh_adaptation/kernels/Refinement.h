@@ -56,9 +56,13 @@ public:
     }
   }
 
-  /// Renumbers without splitting: closes the holes of removed elements.
+  /// Closes the holes of removed elements, if there are any.
   void compact()
   {
+    if (count_if(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
+          return mesh_.is_removed_vertex(Index(v));
+        }) == 0)
+      return;
     codes_.assign(mesh_.number_of_faces(), 0);
     const Restructuring plan(execution_, mesh_, codes_);
     place_vertices(plan);
@@ -111,7 +115,7 @@ private:
         const Index v = mesh_.corner[h];
         if (mesh_.outgoing[v] == h) write(plan.vertex(v), surface_.vertex(v), surface_.origin[v], surface_.active[v]);
         if (plan.is_split(h) && mesh_.is_edge_owner(h))
-          write(plan.midpoint(h), surface_.place(surface_.middle(h)), no_index, std::uint8_t(0xff));
+          write(plan.midpoint(h), surface_.middle(h), no_index, std::uint8_t(0xff));
       }
     });
   }

@@ -31,6 +31,7 @@ struct Relocation_thresholds
 {
   double good_quality = 0.8;   ///< moves that leave no face below are always accepted
   double min_move = 0.02;      ///< metric length below which a move is not worth it
+  double noticeable_move = 0.1; ///< the same in the first sweep: a mesh that is adapted already is left as it is
   double large_move = 0.06;    ///< metric length above which edges may have become too short or better swapped
 };
 
@@ -42,6 +43,7 @@ public:
 
   Relocation(const Execution& execution, Surface& surface, const Relocation_thresholds& thresholds)
     : execution_(execution), surface_(surface), mesh_(surface.mesh), thresholds_(thresholds)
+    , min_move_(thresholds.noticeable_move)
   {}
 
   /// Examines every active vertex once. Returns the number of vertices moved.
@@ -60,6 +62,7 @@ public:
         c.applied += examine(v);
       });
     sweep_border(deferred, local);
+    min_move_ = thresholds_.min_move;
     ++local.sweeps;
     counts += local;
     return local.applied;
@@ -141,7 +144,7 @@ private:
       const Vector_3 ea = star.points[i] - v.point, eb = star.points[j] - v.point;
       const Vector_3 n = ea.cross(eb);
       const double length = n.norm();
-      const double q = face_quality(v.metric, star.metrics[i], star.metrics[j], ea, eb, length);
+      const double q = internal::squared_shape(v.metric, star.metrics[i], star.metrics[j], ea, eb, n).quality();
       s.worst = (std::min)(s.worst, q);
       double least = length;
       for (const Vector_3* m : {&v.normal, &star.normals[i], &star.normals[j]})
@@ -151,11 +154,32 @@ private:
     return s;
   }
 
+  /// Whether all faces around `v` have the quality `good_quality` and `min_alignment`: `shape` without its roots and
+  /// quotients, which nearly all moves need not wait for.
+  CGAL_SMA_FLATTEN bool is_good(const Star& star, const Placed_vertex<Metric>& v) const
+  {
+    const bool is_closed = star.is_closed;
+    const std::size_t n = star.ring.size();
+    for (std::size_t i = is_closed ? 0 : 1, k = is_closed ? n - 1 : 0; i < n; k = i++) {
+      const Vector_3 ea = star.points[k] - v.point, eb = star.points[i] - v.point;
+      const Vector_3 normal = ea.cross(eb);
+      if (!internal::squared_shape(v.metric, star.metrics[k], star.metrics[i], ea, eb, normal)
+             .is_at_least(thresholds_.good_quality))
+        return false;
+      const double limit = min_alignment * min_alignment * normal.squaredNorm();
+      for (const Vector_3* m : {&v.normal, &star.normals[k], &star.normals[i]}) {
+        const double dot = normal.dot(*m);
+        if (!(dot > 0 && dot * dot >= limit) && *m != Vector_3::Zero()) return false;
+      }
+    }
+    return true;
+  }
+
   /// Whether `moved` makes good faces all around, or else better ones than before.
   bool is_acceptable(Index v, const Star& star, const Placed_vertex<Metric>& moved) const
   {
+    if (is_good(star, moved)) return true;
     const Shape after = shape(star, moved);
-    if (after.alignment >= min_alignment && after.worst >= thresholds_.good_quality) return true;
     const Shape before = shape(star, surface_.vertex(v));
     return after.alignment >= (std::min)(min_alignment, before.alignment) &&
            after.worst > before.worst * min_improvement;
@@ -164,23 +188,24 @@ private:
   /// Displacement to the centre of mass of the faces around `v`, in its tangent plane.
   CGAL_SMA_FLATTEN Vector_3 displacement_to_center(Index v, const Star& star) const
   {
+    const Vector_3 &p = surface_.points[v], &normal = surface_.normals[v];
     Vector_3 sum = Vector_3::Zero();
-    double weight = 0;
+    double mass = 0;
     star.for_each_face([&](std::size_t i, std::size_t j) {
-      const Vector_3 ea = star.points[i] - surface_.points[v], eb = star.points[j] - surface_.points[v];
-      const double w = face_density(surface_.metrics[v], star.metrics[i], star.metrics[j], ea, eb, ea.cross(eb).norm());
-      sum += w / 3 * (ea + eb);
-      weight += w;
+      const Vector_3 ea = star.points[i] - p, eb = star.points[j] - p;
+      const double m = face_mass(surface_.metrics[v], star.metrics[i], star.metrics[j], ea, eb, ea.cross(eb).dot(normal));
+      sum += m * (ea + eb);
+      mass += m;
     });
-    if (!(weight > 0)) return Vector_3::Zero();
-    sum /= weight;
-    return sum - sum.dot(surface_.normals[v]) * surface_.normals[v];
+    if (!(mass > 0)) return Vector_3::Zero();
+    sum /= 3 * mass;
+    return sum - sum.dot(normal) * normal;
   }
 
   bool diffuse(Index v, const Star& star)
   {
     const Vector_3 t = displacement_to_center(v, star);
-    if (!(surface_.metrics[v].length(t) > thresholds_.min_move)) return false;
+    if (!(surface_.metrics[v].length(t) > min_move_)) return false;
     for (const double scale : {relaxation_, relaxation_ / 2, relaxation_ / 4}) {
       const auto moved = surface_.place(surface_.reference().trace(surface_.locations[v], scale * t, true));
       if (!is_acceptable(v, star, moved)) continue;
@@ -209,7 +234,7 @@ private:
     if (!(d0 * d1 < 0) || !(l0 + l1 > 0)) return false;
     // towards the longer side by half of the excess, in units of arc length per metric length
     const double d = l0 > l1 ? d0 * 0.5 * (l0 - l1) / l0 : d1 * 0.5 * (l1 - l0) / l1;
-    if (std::abs(l0 - l1) < 2 * thresholds_.min_move) return false;
+    if (std::abs(l0 - l1) < 2 * min_move_) return false;
     const Shape before = shape(star, surface_.vertex(v));
     for (const double scale : {1.0, 0.5}) {
       const auto moved = surface_.place(surface_.reference().on_curve(curve, arc0.first + scale * d));
@@ -234,6 +259,7 @@ private:
   Surface& surface_;
   Mesh_view& mesh_;
   Relocation_thresholds thresholds_;
+  double min_move_;
   double relaxation_ = plain_relaxation;
   std::vector<Index> position_;
 };

@@ -28,7 +28,7 @@ namespace Surface_mesh_adaptation {
 struct Simplification_thresholds
 {
   double min_length = min_unit_length;  ///< edges below are collapsed
-  double max_length = max_unit_length;  ///< no collapse creates an edge above
+  double max_length = max_unit_length;  ///< no collapse creates an edge above, unless it removes a longer one
   double min_quality = 0.2;             ///< nor a face below, unless there was a worse one
 };
 
@@ -146,22 +146,23 @@ private:
     if (!mesh_.is_collapsible(e)) return false;
     if (surface_.vertex_class(s) == Vertex_class::curve && !is_curve_preserved(s, d)) return false;
 
-    double old_quality = 1, old_alignment = 1, new_quality = 1;
+    double old_quality = 1, old_alignment = 1, length_limit = thresholds_.max_length;
     bool is_valid = true;
     mesh_.for_each_outgoing(s, [&](Index h) {
       const Index x = mesh_.target(h), y = mesh_.apex(h);
       old_quality = (std::min)(old_quality, surface_.quality(s, x, y));
       old_alignment = (std::min)(old_alignment, surface_.alignment(s, x, y));
+      length_limit = (std::max)({length_limit, surface_.length(s, x), surface_.length(s, y)});
     });
     const double quality_limit = (std::min)(thresholds_.min_quality, old_quality);
     const double alignment_limit = (std::min)(min_alignment, old_alignment);
     mesh_.for_each_outgoing_while(s, [&](Index h) {
       const Index x = mesh_.target(h), y = mesh_.apex(h);
       if (x == d || y == d) return true;
-      new_quality = surface_.quality(d, x, y);
+      const double new_quality = surface_.quality(d, x, y);
       const Vector_3 n = surface_.normal(d, x, y);
-      is_valid = new_quality > quality_limit && new_quality > 0 && surface_.length(d, x) <= thresholds_.max_length &&
-                 surface_.length(d, y) <= thresholds_.max_length &&
+      is_valid = new_quality > quality_limit && new_quality > 0 && surface_.length(d, x) <= length_limit &&
+                 surface_.length(d, y) <= length_limit &&
                  surface_.alignment(n, d, x, y) >= alignment_limit && n.dot(surface_.normal(s, x, y)) >= min_turn &&
                  (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit);
       return is_valid;

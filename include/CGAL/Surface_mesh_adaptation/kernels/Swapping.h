@@ -64,8 +64,9 @@ public:
     if (mesh_.is_feature(h)) return 0; // so is the boundary
     const Index t = mesh_.twin[h];
     const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
+    if (surface_.has_quality(p, q, b, max_improvable_quality) && surface_.has_quality(q, p, a, max_improvable_quality))
+      return 0;
     const double before = (std::min)(surface_.quality(p, q, b), surface_.quality(q, p, a));
-    if (before > max_improvable_quality) return 0;
     const double after = (std::min)(surface_.quality(a, b, p), surface_.quality(b, a, q));
     const bool better = after > before * min_improvement;
     if (!better && !(thresholds_.equalize_degrees && after > min_degree_swap_quality &&

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+/*!
+\ingroup PkgSurfaceMeshAdaptationConcepts
+\cgalConcept
+
+What a mesh is adapted to: a size or a metric tensor at every point of the surface. Besides the models below, every
+`ReadablePropertyMap` with the vertex descriptor of the mesh as key and a size (convertible to `double`) or a
+`Metric_tensor_3` as value is a model.
+
+\cgalHasModel `CGAL::Surface_mesh_adaptation::Uniform_metric_field`
+\cgalHasModel `CGAL::Surface_mesh_adaptation::Curvature_metric_field`
+\cgalHasModel `CGAL::Surface_mesh_adaptation::Analytic_metric_field<Function>`
+*/
+class MetricField
+{
+};
