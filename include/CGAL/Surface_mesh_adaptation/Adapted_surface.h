@@ -6,6 +6,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_ADAPTED_SURFACE_H
 #define CGAL_SURFACE_MESH_ADAPTATION_ADAPTED_SURFACE_H
 
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_background.h>
 #include <CGAL/Surface_mesh_adaptation/Reference_surface.h>
@@ -39,12 +40,12 @@ public:
   using Background = Metric_background<Metric>;
 
   Mesh_view mesh;
-  std::vector<Vector_3> points;
-  std::vector<Vector_3> normals;
-  std::vector<Metric> metrics;
-  std::vector<Location> locations;
-  std::vector<Index> origin;         ///< vertex of the input that a vertex was, or `no_index`
-  std::vector<std::uint8_t> active;  ///< a bit for each kernel that has to look at the vertex
+  Buffer<Vector_3> points;
+  Buffer<Vector_3> normals;
+  Buffer<Metric> metrics;
+  Buffer<Location> locations;
+  Buffer<Index> origin;         ///< vertex of the input that a vertex was, or `no_index`
+  Buffer<std::uint8_t> active;  ///< a bit for each kernel that has to look at the vertex
 
   template <class Execution>
   Adapted_surface(const Execution& execution, const Reference& reference, const Background& background)
@@ -155,8 +156,8 @@ public:
     normals.resize(n);
     metrics.resize(n);
     locations.resize(n);
-    origin.resize(n, no_index);
-    active.resize(n, 0xff);
+    origin.resize(n);
+    active.resize(n);
   }
 
 private:

@@ -11,6 +11,8 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_MESH_VIEW_H
 #define CGAL_SURFACE_MESH_ADAPTATION_MESH_VIEW_H
 
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
+
 #include <boost/container/small_vector.hpp>
 
 #include <cstddef>
@@ -29,10 +31,10 @@ constexpr Index no_curve = ~Index(0);
 class Mesh_view
 {
 public:
-  std::vector<Index> corner;    ///< vertex at each corner (source of each halfedge); `no_index` in removed faces
-  std::vector<Index> twin;      ///< opposite halfedge, `no_index` on the boundary
-  std::vector<Index> curve;     ///< feature curve of each halfedge, equal on both sides, or `no_curve`
-  std::vector<Index> outgoing;  ///< a halfedge that leaves each vertex: on the boundary the one without twin;
+  Buffer<Index> corner;    ///< vertex at each corner (source of each halfedge); `no_index` in removed faces
+  Buffer<Index> twin;      ///< opposite halfedge, `no_index` on the boundary
+  Buffer<Index> curve;     ///< feature curve of each halfedge, equal on both sides, or `no_curve`
+  Buffer<Index> outgoing;  ///< a halfedge that leaves each vertex: on the boundary the one without twin;
                                 ///< `no_index` for removed vertices
 
   std::size_t number_of_vertices() const { return outgoing.size(); }

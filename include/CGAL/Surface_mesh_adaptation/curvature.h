@@ -5,12 +5,14 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_CURVATURE_H
 #define CGAL_SURFACE_MESH_ADAPTATION_CURVATURE_H
 
+#include <CGAL/Surface_mesh_adaptation/Features.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 
 #include <Eigen/Cholesky>
 
+#include <array>
 #include <vector>
 
 namespace CGAL {

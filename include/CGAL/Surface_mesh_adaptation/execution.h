@@ -9,6 +9,8 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_EXECUTION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_EXECUTION_H
 
+#include <CGAL/Surface_mesh_adaptation/internal/thread_sanitizer.h>
+
 #include <CGAL/tags.h>
 
 #ifdef CGAL_LINKED_WITH_TBB
@@ -73,9 +75,11 @@ public:
   void run(std::size_t number_of_tasks, const Task& task) const
   {
     if (number_of_tasks == 1) return task(0);
-    arena_->execute([&] {
-      tbb::parallel_for(std::size_t(0), number_of_tasks, task);
-    });
+    internal::Fork_join_annotation annotation;
+    const auto body = [&](std::size_t i) { annotation.run([&] { task(i); }); };
+    annotation.fork();
+    arena_->execute([&] { tbb::parallel_for(std::size_t(0), number_of_tasks, body); });
+    annotation.join();
   }
 
 private:
@@ -102,16 +106,19 @@ public:
     if (number_of_tasks == 1) return task(0);
     std::exception_ptr failure; // no exception may leave an OpenMP region
     std::mutex failure_mutex;
+    internal::Fork_join_annotation annotation;
     const std::int64_t n = std::int64_t(number_of_tasks);
+    annotation.fork();
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
     for (std::int64_t i = 0; i < n; ++i) {
       try {
-        task(std::size_t(i));
+        annotation.run([&] { task(std::size_t(i)); });
       } catch (...) {
         const std::lock_guard<std::mutex> lock(failure_mutex);
         if (!failure) failure = std::current_exception();
       }
     }
+    annotation.join();
     if (failure) std::rethrow_exception(failure);
   }
 
@@ -145,8 +152,11 @@ template <class T> constexpr bool is_execution<T, std::void_t<decltype(std::decl
 
 } // namespace internal
 
-/// Default length of a chunk: long enough to hide the cost of a task (a microsecond), short enough for many threads.
-constexpr std::size_t default_chunk_length = 4096;
+/// Length of a chunk of light work (tens of nanoseconds an index): long enough to hide the cost of a task, short enough
+/// to occupy many threads.
+constexpr std::size_t default_chunk_length = 512;
+/// The same for heavy work (a microsecond an index).
+constexpr std::size_t heavy_chunk_length = 64;
 
 inline std::size_t number_of_chunks(std::size_t n, std::size_t chunk_length)
 {
@@ -166,9 +176,10 @@ void for_each_chunk(const Execution& execution, std::size_t n, std::size_t chunk
 
 /// Calls `f(i)` for `i` in `[0, n)`; no two calls may touch the same data unless both only read it.
 template <class Execution, class F>
-void for_each_index(const Execution& execution, std::size_t n, const F& f)
+void for_each_index(const Execution& execution, std::size_t n, const F& f,
+                    std::size_t chunk_length = default_chunk_length)
 {
-  for_each_chunk(execution, n, default_chunk_length, [&](std::size_t, std::size_t begin, std::size_t end) {
+  for_each_chunk(execution, n, chunk_length, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) f(i);
   });
 }
@@ -205,9 +216,8 @@ std::size_t count_if(const Execution& execution, std::size_t n, const Predicate&
 
 /// Replaces `offsets[i] = size(i)` by the sum of the sizes before `i`, and returns the sum of all:
 /// `offsets` is resized to `n`.
-template <class Execution, class Size>
-std::uint32_t exclusive_scan(const Execution& execution, std::size_t n, std::vector<std::uint32_t>& offsets,
-                             const Size& size)
+template <class Execution, class Offsets, class Size>
+std::uint32_t exclusive_scan(const Execution& execution, std::size_t n, Offsets& offsets, const Size& size)
 {
   offsets.resize(n);
   std::vector<std::uint32_t> chunk_offset(number_of_chunks(n, default_chunk_length) + 1, 0);

@@ -6,6 +6,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_FACE_GRAPH_H
 #define CGAL_SURFACE_MESH_ADAPTATION_FACE_GRAPH_H
 
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
@@ -55,11 +56,11 @@ public:
     : vertex_id_(get(CGAL::dynamic_vertex_property_t<Index>(), graph))
     , face_id_(get(CGAL::dynamic_face_property_t<Index>(), graph))
   {
-    for (const auto v : CGAL::vertices(graph)) {
+    for (const auto v : vertices(graph)) {
       put(vertex_id_, v, Index(vertices_.size()));
       vertices_.push_back(v);
     }
-    for (const auto f : CGAL::faces(graph)) {
+    for (const auto f : faces(graph)) {
       put(face_id_, f, Index(faces_.size()));
       faces_.push_back(f);
     }
@@ -221,7 +222,7 @@ Imported_mesh<FaceGraph> read_face_graph(const Execution& execution, const FaceG
 struct Halfedge_numbering
 {
   const Mesh_view& mesh;
-  std::vector<Index> offset;  ///< of the first edge owned by each face
+  Buffer<Index> offset;  ///< of the first edge owned by each face
   Index number_of_edges = 0;
 
   template <class Execution>
@@ -308,8 +309,8 @@ void write_connectivity(const Execution&, const Mesh_view& view, FaceGraph& grap
 }
 
 /// Writes points into a property map of the written mesh, of which vertex `i` is the `i`-th.
-template <class FaceGraph, class VertexPointMap>
-void write_points(const std::vector<Vector_3>& points, FaceGraph& graph, const VertexPointMap& point_map)
+template <class Points, class FaceGraph, class VertexPointMap>
+void write_points(const Points& points, FaceGraph& graph, const VertexPointMap& point_map)
 {
   using Point = typename boost::property_traits<VertexPointMap>::value_type;
   std::size_t i = 0;

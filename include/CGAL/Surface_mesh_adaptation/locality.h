@@ -79,11 +79,12 @@ std::vector<Index> inverse(const Execution& execution, const std::vector<Index>&
 }
 
 /// `result[i] = items[order[i / width] * width + i % width]`
-template <class Execution, class T>
-void reorder(const Execution& execution, const std::vector<Index>& order, std::size_t width, std::vector<T>& items)
+template <class Execution, class Items>
+void reorder(const Execution& execution, const std::vector<Index>& order, std::size_t width, Items& items)
 {
   if (items.empty()) return;
-  std::vector<T> result(items.size());
+  Items result;
+  result.resize(items.size());
   for_each_index(execution, items.size(), [&](std::size_t i) { result[i] = items[order[i / width] * width + i % width]; });
   items.swap(result);
 }

@@ -9,6 +9,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_RESTRUCTURE_H
 #define CGAL_SURFACE_MESH_ADAPTATION_RESTRUCTURE_H
 
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 
@@ -140,20 +141,18 @@ public:
     return label < 3 ? vertex(mesh_.corner[3 * std::size_t(f) + std::size_t(label)]) : midpoint(3 * f + Index(label - 3));
   }
 
-  /// Builds the new connectivity.
+  /// Writes the new connectivity into `result`, of which the memory is reused.
   template <class Execution>
-  Mesh_view build(const Execution& execution) const
+  void build(const Execution& execution, Mesh_view& result) const
   {
-    Mesh_view result;
     const std::size_t n = 3 * std::size_t(number_of_faces_);
-    result.corner.resize(n);
-    result.twin.resize(n);
-    result.curve.resize(n);
-    result.outgoing.resize(number_of_vertices_);
+    resize_and_forget(result.corner, n);
+    resize_and_forget(result.twin, n);
+    resize_and_forget(result.curve, n);
+    resize_and_forget(result.outgoing, number_of_vertices_);
     for_each_index(execution, mesh_.number_of_faces(), [&](std::size_t f) {
       if (!mesh_.is_removed_face(Index(f))) write_children(result, Index(f));
     });
-    return result;
   }
 
 private:
@@ -214,7 +213,7 @@ private:
 
   const Mesh_view& mesh_;
   const std::vector<std::uint8_t>& codes_;
-  std::vector<Index> vertex_offset_, face_offset_;
+  Buffer<Index> vertex_offset_, face_offset_;
   Index number_of_vertices_ = 0, number_of_faces_ = 0;
 };
 

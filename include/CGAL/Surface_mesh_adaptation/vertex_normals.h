@@ -5,6 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_VERTEX_NORMALS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_VERTEX_NORMALS_H
 
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
@@ -17,8 +18,8 @@ namespace Surface_mesh_adaptation {
 /// A unit normal at every corner of every face, shared by the corners of a smooth sector.
 struct Corner_normals
 {
-  std::vector<Vector_3> normals;
-  std::vector<Index> of_corner;  ///< index into `normals` for each corner
+  Buffer<Vector_3> normals;
+  Buffer<Index> of_corner;  ///< index into `normals` for each corner
 
   const Vector_3& at(Index corner) const { return normals[of_corner[corner]]; }
 };
@@ -77,7 +78,7 @@ template <class Execution>
 Corner_normals estimate_normals(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points)
 {
   Corner_normals result;
-  std::vector<Index> offset;
+  Buffer<Index> offset;
   const Index total = exclusive_scan(execution, mesh.number_of_vertices(), offset, [&](std::size_t v) {
     Index sectors = 0;
     internal::for_each_sector(mesh, Index(v), [&](Index, std::size_t) { ++sectors; });

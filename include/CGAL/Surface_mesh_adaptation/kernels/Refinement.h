@@ -13,6 +13,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_REFINEMENT_H
 
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
@@ -74,11 +75,11 @@ private:
   static constexpr Index max_number_of_faces = std::numeric_limits<std::int32_t>::max() / 3;
 
   template <class F>
-  void for_each_face(const F& f) const
+  void for_each_face(const F& f, std::size_t chunk_length = default_chunk_length) const
   {
     for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t i) {
       if (!mesh_.is_removed_face(Index(i))) f(Index(i));
-    });
+    }, chunk_length);
   }
 
   void mark(double max_length)
@@ -104,12 +105,12 @@ private:
   void place_vertices(const Restructuring& plan)
   {
     const std::size_t n = plan.number_of_vertices();
-    points_.resize(n);
-    normals_.resize(n);
-    metrics_.resize(n);
-    locations_.resize(n);
-    origin_.resize(n);
-    active_.resize(n);
+    resize_and_forget(points_, n);
+    resize_and_forget(normals_, n);
+    resize_and_forget(metrics_, n);
+    resize_and_forget(locations_, n);
+    resize_and_forget(origin_, n);
+    resize_and_forget(active_, n);
     for_each_face([&](Index f) {
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
         const Index v = mesh_.corner[h];
@@ -117,7 +118,7 @@ private:
         if (plan.is_split(h) && mesh_.is_edge_owner(h))
           write(plan.midpoint(h), surface_.middle(h), no_index, std::uint8_t(0xff));
       }
-    });
+    }, heavy_chunk_length);
   }
 
   void write(Index v, const Placed_vertex<Metric>& p, Index origin, std::uint8_t active)
@@ -168,13 +169,15 @@ private:
   /// Of the two ways to cut the quadrilateral that two marks leave, takes the one with the better worst face.
   void choose_diagonals(const Restructuring& plan)
   {
+    chosen_ = codes_; // the plan goes on reading the codes of neighbours
     for_each_face([&](Index f) {
       const std::uint8_t marks = codes_[f];
       if (marks != 3 && marks != 5 && marks != 6) return;
       const std::uint8_t other = std::uint8_t(marks | 8);
       if (worst_child(plan, f, other) > worst_child(plan, f, marks) && are_children_upright(plan, f, other))
-        codes_[f] = other;
+        chosen_[f] = other;
     });
+    codes_.swap(chosen_);
   }
 
   bool are_children_upright(const Restructuring& plan, Index f, std::uint8_t code) const
@@ -202,7 +205,8 @@ private:
 
   void commit(const Restructuring& plan)
   {
-    mesh_ = plan.build(execution_);
+    plan.build(execution_, spare_);
+    std::swap(mesh_, spare_);
     surface_.points.swap(points_);
     surface_.normals.swap(normals_);
     surface_.metrics.swap(metrics_);
@@ -214,12 +218,14 @@ private:
   const Execution& execution_;
   Surface& surface_;
   Mesh_view& mesh_;
-  std::vector<std::uint8_t> codes_, bad_;
-  std::vector<Vector_3> points_, normals_;
-  std::vector<Metric> metrics_;
-  std::vector<Location> locations_;
-  std::vector<Index> origin_;
-  std::vector<std::uint8_t> active_;
+  std::vector<std::uint8_t> codes_, chosen_, bad_;
+  // the other half of a double buffer: swapped with the surface by `commit`
+  Mesh_view spare_;
+  Buffer<Vector_3> points_, normals_;
+  Buffer<Metric> metrics_;
+  Buffer<Location> locations_;
+  Buffer<Index> origin_;
+  Buffer<std::uint8_t> active_;
 };
 
 } // namespace Surface_mesh_adaptation

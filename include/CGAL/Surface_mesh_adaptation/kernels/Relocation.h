@@ -104,8 +104,11 @@ private:
       });
     });
     counts.candidates += vertices.size();
+    moved_.resize(vertices.size());
     for (const auto& nodes : color_classes(coloring))
-      counts.applied += count_if(execution_, nodes.size(), [&](std::size_t i) { return examine(vertices[nodes[i]]); });
+      for_each_index(execution_, nodes.size(), [&](std::size_t i) { moved_[nodes[i]] = examine(vertices[nodes[i]]); },
+                     heavy_chunk_length);
+    counts.applied += count_if(execution_, vertices.size(), [&](std::size_t i) { return moved_[i] != 0; });
   }
 
   bool examine(Index v)
@@ -262,6 +265,7 @@ private:
   double min_move_;
   double relaxation_ = plain_relaxation;
   std::vector<Index> position_;
+  Buffer<std::uint8_t> moved_;
 };
 
 } // namespace Surface_mesh_adaptation

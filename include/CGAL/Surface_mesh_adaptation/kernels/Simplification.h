@@ -109,7 +109,7 @@ private:
     proposals_.resize(vertices.size());
     for_each_index(execution_, vertices.size(), [&](std::size_t i) {
       proposals_[i] = mesh_.is_removed_vertex(vertices[i]) ? Mesh_view::Directed_edge() : propose(vertices[i]);
-    });
+    }, heavy_chunk_length);
     const auto valid = pack(execution_, vertices.size(), [&](std::size_t i) { return proposals_[i].h != no_index; });
     for_each_index(execution_, vertices.size(), [&](std::size_t i) {
       if (proposals_[i].h == no_index) deactivate(surface_, vertices[i], Activity::simplify);
