@@ -20,6 +20,10 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+/// Cosine between a face and the surface normals at its corners from which on none of its edges can be a fold:
+/// 30 degrees, for a face that is not flat may deviate by the other 60.
+constexpr double flat_alignment = 0.87;
+
 /// Everything that belongs to one vertex and follows from its location.
 template <class Metric>
 struct Placed_vertex
@@ -111,12 +115,49 @@ public:
     return least;
   }
 
+  /// Whether the face is so near to the surface at all corners that it cannot be part of a fold.
+  bool is_flat(const Vector_3& unit_normal, Index a, Index b, Index c) const
+  {
+    for (Index v : {a, b, c})
+      if (vertex_class(v) != Vertex_class::smooth || unit_normal.dot(normals[v]) < flat_alignment) return false;
+    return true;
+  }
+
   /// Unit normal of the face, zero if it is degenerate.
   Vector_3 normal(Index a, Index b, Index c) const
   {
     const Vector_3 n = (points[b] - points[a]).cross(points[c] - points[a]);
     const double length = n.norm();
     return length > 0 ? Vector_3(n / length) : Vector_3(Vector_3::Zero());
+  }
+
+  Vector_3 normal(Index h) const { return normal(mesh.source(h), mesh.target(h), mesh.apex(h)); }
+
+  /// Least cosine between two faces that meet at a smooth edge of a face around `v`, if `v` were at `p`. Faces that
+  /// degenerate there, as those of an edge that is collapsed, give their place to the face behind them.
+  double sharpest_fold(Index v, const Vector_3& p) const
+  {
+    double least = 1;
+    const auto meet = [&](const Vector_3& m, const Vector_3& n) {
+      if (m != Vector_3::Zero() && n != Vector_3::Zero()) least = (std::min)(least, m.dot(n));
+    };
+    const auto is_crossed = [&](Index h) { return mesh.is_feature(h) || points[mesh.target(h)] == p; };
+    Vector_3 first = Vector_3::Zero(), last = Vector_3::Zero();
+    mesh.for_each_outgoing(v, [&](Index h) {
+      const Vector_3 cross = (points[mesh.target(h)] - p).cross(points[mesh.apex(h)] - p);
+      Vector_3 n = cross.norm() > 0 ? Vector_3(cross.normalized()) : Vector_3(Vector_3::Zero());
+      const Index ring_edge = Mesh_view::next(h);
+      if (!mesh.is_feature(ring_edge)) {
+        const Vector_3 behind = normal(mesh.twin[ring_edge]);
+        meet(n, behind);
+        if (n == Vector_3::Zero()) n = behind;
+      }
+      if (h == mesh.outgoing[v]) first = n;
+      else if (!is_crossed(h)) meet(last, n);
+      last = n;
+    });
+    if (!mesh.is_border_vertex(v) && !is_crossed(mesh.outgoing[v])) meet(last, first);
+    return least;
   }
 
   /// Where an edge is split: the middle of its arc on a feature curve, else the point of the surface next to the middle

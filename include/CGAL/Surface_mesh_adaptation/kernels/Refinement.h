@@ -17,6 +17,7 @@
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/restructure.h>
 
 #include <cstdint>
@@ -71,6 +72,7 @@ public:
   }
 
 private:
+  static constexpr double min_turn = 0.5;  // cosine between a face and its children
   static constexpr double max_half = 0.8;  // of an edge: the middle of a bulging arc lies well within
   static constexpr Index max_number_of_faces = std::numeric_limits<std::int32_t>::max() / 3;
 
@@ -180,13 +182,23 @@ private:
     codes_.swap(chosen_);
   }
 
+  /// Whether the children neither turn far from their parent nor, further than it does, from the surface normals at
+  /// their corners.
   bool are_children_upright(const Restructuring& plan, Index f, std::uint8_t code) const
   {
     const auto& pattern = internal::Split_pattern::of(code);
-    const Index h = 3 * f;
-    const Vector_3 parent = surface_.normal(mesh_.corner[h], mesh_.corner[h + 1], mesh_.corner[h + 2]);
-    for (std::size_t c = 0; c < std::size_t(pattern.number_of_children); ++c)
-      if (!(new_normal(plan, f, pattern.child[c]).dot(parent) > 0)) return false;
+    const Index a = mesh_.corner[3 * f], b = mesh_.corner[3 * f + 1], c = mesh_.corner[3 * f + 2];
+    const Vector_3 parent = surface_.normal(a, b, c);
+    const double limit = (std::min)(min_alignment, surface_.alignment(parent, a, b, c));
+    for (std::size_t i = 0; i < std::size_t(pattern.number_of_children); ++i) {
+      const Vector_3 normal = new_normal(plan, f, pattern.child[i]);
+      const double length = normal.norm();
+      if (!(normal.dot(parent) > min_turn * length)) return false;
+      for (const std::uint8_t label : pattern.child[i]) {
+        const Vector_3& n = normals_[plan.vertex_of_label(f, label)];
+        if (n != Vector_3::Zero() && normal.dot(n) < limit * length) return false;
+      }
+    }
     return true;
   }
 

@@ -157,8 +157,8 @@ private:
     return s;
   }
 
-  /// Whether all faces around `v` have the quality `good_quality` and `min_alignment`: `shape` without its roots and
-  /// quotients, which nearly all moves need not wait for.
+  /// Whether all faces around `v` have the quality `good_quality` and are flat: a test without roots and quotients,
+  /// which nearly all moves pass.
   CGAL_SMA_FLATTEN bool is_good(const Star& star, const Placed_vertex<Metric>& v) const
   {
     const bool is_closed = star.is_closed;
@@ -169,10 +169,10 @@ private:
       if (!internal::squared_shape(v.metric, star.metrics[k], star.metrics[i], ea, eb, normal)
              .is_at_least(thresholds_.good_quality))
         return false;
-      const double limit = min_alignment * min_alignment * normal.squaredNorm();
+      const double limit = flat_alignment * flat_alignment * normal.squaredNorm();
       for (const Vector_3* m : {&v.normal, &star.normals[k], &star.normals[i]}) {
-        const double dot = normal.dot(*m);
-        if (!(dot > 0 && dot * dot >= limit) && *m != Vector_3::Zero()) return false;
+        const double dot = normal.dot(*m); // 0 on features
+        if (!(dot > 0 && dot * dot >= limit)) return false;
       }
     }
     return true;
@@ -184,8 +184,15 @@ private:
     if (is_good(star, moved)) return true;
     const Shape after = shape(star, moved);
     const Shape before = shape(star, surface_.vertex(v));
+    return (after.worst > before.worst * min_improvement || after.worst >= thresholds_.good_quality) &&
+           is_upright(v, before, after, moved);
+  }
+
+  /// Whether `moved` neither turns a face away from the surface nor folds it over a neighbour more than is the case.
+  bool is_upright(Index v, const Shape& before, const Shape& after, const Placed_vertex<Metric>& moved) const
+  {
     return after.alignment >= (std::min)(min_alignment, before.alignment) &&
-           after.worst > before.worst * min_improvement;
+           surface_.sharpest_fold(v, moved.point) >= (std::min)(min_fold, surface_.sharpest_fold(v, surface_.points[v]));
   }
 
   /// Displacement to the centre of mass of the faces around `v`, in its tangent plane.
@@ -242,9 +249,7 @@ private:
     for (const double scale : {1.0, 0.5}) {
       const auto moved = surface_.place(surface_.reference().on_curve(curve, arc0.first + scale * d));
       const Shape after = shape(star, moved);
-      if (after.alignment < (std::min)(min_alignment, before.alignment) ||
-          after.worst < (std::min)(before.worst, min_slide_quality))
-        continue;
+      if (after.worst < (std::min)(before.worst, min_slide_quality) || !is_upright(v, before, after, moved)) continue;
       surface_.set(v, moved);
       activate_around(v, star, true);
       return true;

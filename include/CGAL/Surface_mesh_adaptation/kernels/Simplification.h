@@ -147,7 +147,7 @@ private:
     if (surface_.vertex_class(s) == Vertex_class::curve && !is_curve_preserved(s, d)) return false;
 
     double old_quality = 1, old_alignment = 1, length_limit = thresholds_.max_length;
-    bool is_valid = true;
+    bool is_valid = true, is_flat = true;
     mesh_.for_each_outgoing(s, [&](Index h) {
       const Index x = mesh_.target(h), y = mesh_.apex(h);
       old_quality = (std::min)(old_quality, surface_.quality(s, x, y));
@@ -161,13 +161,15 @@ private:
       if (x == d || y == d) return true;
       const double new_quality = surface_.quality(d, x, y);
       const Vector_3 n = surface_.normal(d, x, y);
+      is_flat = is_flat && surface_.is_flat(n, d, x, y);
       is_valid = new_quality > quality_limit && new_quality > 0 && surface_.length(d, x) <= length_limit &&
                  surface_.length(d, y) <= length_limit &&
                  surface_.alignment(n, d, x, y) >= alignment_limit && n.dot(surface_.normal(s, x, y)) >= min_turn &&
                  (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit);
       return is_valid;
     });
-    return is_valid;
+    return is_valid && (is_flat || surface_.sharpest_fold(s, surface_.points[d]) >=
+                                     (std::min)(min_fold, surface_.sharpest_fold(s, surface_.points[s])));
   }
 
   /// Whether the curve through `s` may skip it towards `d`: it must not turn too much there, the new edge must not be

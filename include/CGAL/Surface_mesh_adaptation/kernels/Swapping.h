@@ -77,7 +77,7 @@ public:
       if (change > 0 && before > min_degree_swap_quality) return 0;
       if (change >= 0 && !better) return 0;
     }
-    if (mesh_.are_adjacent(a, b) || !is_valid(p, q, a, b)) return 0;
+    if (mesh_.are_adjacent(a, b) || !is_valid(h)) return 0;
     return (std::max)(after - before, least_gain);
   }
 
@@ -183,15 +183,30 @@ private:
     return change(p, -1) + change(q, -1) + change(a, 1) + change(b, 1);
   }
 
-  bool is_valid(Index p, Index q, Index a, Index b) const
+  bool is_valid(Index h) const
   {
+    const Index t = mesh_.twin[h];
+    const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
     if (surface_.length(a, b) > (std::max)(thresholds_.max_length, surface_.length(p, q))) return false;
     const Vector_3 old1 = surface_.normal(p, q, b), old2 = surface_.normal(q, p, a);
     const Vector_3 new1 = surface_.normal(a, b, p), new2 = surface_.normal(b, a, q);
     const double limit = (std::min)({min_alignment, surface_.alignment(old1, p, q, b), surface_.alignment(old2, q, p, a)});
     if (surface_.alignment(new1, a, b, p) < limit || surface_.alignment(new2, b, a, q) < limit) return false;
     const double turn = (std::min)(min_turn, old1.dot(old2));
-    return (std::min)({new1.dot(old1), new1.dot(old2), new2.dot(old1), new2.dot(old2), new1.dot(new2)}) >= turn;
+    if ((std::min)({new1.dot(old1), new1.dot(old2), new2.dot(old1), new2.dot(old2), new1.dot(new2)}) < turn) return false;
+    if (surface_.is_flat(new1, a, b, p) && surface_.is_flat(new2, b, a, q)) return true;
+    // faces (p, q, b) and (q, p, a) with the outer edges hn hp and tn tp become (a, b, p) and (b, a, q) with hp tn and tp hn
+    const Index hn = Mesh_view::next(h), hp = Mesh_view::previous(h), tn = Mesh_view::next(t), tp = Mesh_view::previous(t);
+    const double fold = (std::min)({fold_across(hn, new2), fold_across(hp, new1), fold_across(tn, new1),
+                                    fold_across(tp, new2)});
+    return fold >= (std::min)({min_fold, fold_across(hn, old1), fold_across(hp, old1), fold_across(tn, old2),
+                               fold_across(tp, old2)});
+  }
+
+  /// Cosine between a face with normal `n` on the side of `h` and the face behind `h`; 1 across features.
+  double fold_across(Index h, const Vector_3& n) const
+  {
+    return mesh_.is_feature(h) ? 1 : n.dot(surface_.normal(mesh_.twin[h]));
   }
 
   const Execution& execution_;

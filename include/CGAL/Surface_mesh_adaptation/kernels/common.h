@@ -21,6 +21,9 @@ enum class Activity : std::uint8_t { simplify = 1, swap = 2, relocate = 4 };
 /// faces it replaces was worse: 60 degrees.
 constexpr double min_alignment = 0.5;
 
+/// Least cosine between two faces at a smooth edge that an operation may create, unless it mends a sharper one.
+constexpr double min_fold = 0.0;
+
 template <class Surface>
 bool is_active(const Surface& surface, Index v, Activity kernel)
 {

@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Whole adaptations of analytic and real surfaces: what is kept, what is reached, and that the result does not depend
+// on how it was computed.
+
+#include "checks.h"
+#include "policies.h"
+#include "real_meshes.h"
+#include "shapes.h"
+
+#include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace {
+
+namespace SMA = CGAL::Surface_mesh_adaptation;
+using shapes::Index;
+using shapes::Soup;
+using shapes::Vector_3;
+using SMA::Metric_tensor_3;
+using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+using Edges_map = Mesh::Property_map<Mesh::Edge_index, bool>;
+using Metric_map = Mesh::Property_map<Mesh::Vertex_index, Metric_tensor_3>;
+
+/// What holds after any adaptation of `before` to `after`.
+void expect_same_surface(const Soup& before, const Mesh& after)
+{
+  const Soup result = shapes::soup(after);
+  ASSERT_TRUE(CGAL::is_valid_polygon_mesh(after));
+  ASSERT_TRUE(checks::is_manifold(result));
+  EXPECT_EQ(checks::topology(result), checks::topology(before));
+  EXPECT_GT(checks::least_area(result), 0);
+}
+
+// Real meshes
+
+struct Case
+{
+  const char* mesh;
+  double size; ///< as a multiple of the mean edge length of the input; 0: from the curvature
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.mesh << " at size " << c.size; }
+
+std::string test_name(std::string mesh)
+{
+  std::replace(mesh.begin(), mesh.end(), '-', '_');
+  return mesh;
+}
+
+std::string name_of_case(const ::testing::TestParamInfo<Case>& c)
+{
+  const double size = c.param.size;
+  return test_name(c.param.mesh) + (size == 0 ? "_by_curvature" : size == 1 ? "_at_its_size" : "_at_half_its_size");
+}
+
+SMA::Adaptation_report adapt(Mesh& mesh, double relative_size)
+{
+  if (relative_size == 0) return SMA::adapt_surface_mesh(mesh, SMA::Curvature_metric_field(0.001));
+  return SMA::adapt_surface_mesh(mesh,
+                                 SMA::Uniform_metric_field(relative_size * shapes::soup(mesh).mean_edge_length()));
+}
+
+class Real_mesh : public ::testing::TestWithParam<Case>
+{};
+
+TEST_P(Real_mesh, is_adapted_and_stays_the_same_surface)
+{
+  Mesh mesh = real_mesh<Mesh>(GetParam().mesh);
+  const Soup before = shapes::soup(mesh);
+  const SMA::Adaptation_report report = adapt(mesh, GetParam().size);
+  expect_same_surface(before, mesh);
+  EXPECT_EQ(report.final.vertices, num_vertices(mesh));
+  EXPECT_EQ(report.final.faces, num_faces(mesh));
+  EXPECT_FALSE(report.stopped);
+  if (GetParam().size != 0.5) return; // coarser metrics conflict with the features of some of these meshes
+  EXPECT_GE(report.final.in_range, 0.95);
+  EXPECT_GE(report.final.mean_quality, 0.95);
+}
+
+std::vector<Case> cases()
+{
+  std::vector<Case> result;
+  for (const char* mesh :
+       {"elephant", "fandisk", "rotor_small", "couplingdown", "lion-head", "blade", "mannequin-devil"})
+    for (const double size : {1.0, 0.5, 0.0}) result.push_back({mesh, size});
+  return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Adapt, Real_mesh, ::testing::ValuesIn(cases()), name_of_case);
+
+using Edges = std::vector<std::pair<Index, Index>>;
+
+Edges marked_edges(const Mesh& mesh, const Edges_map& is_marked)
+{
+  Edges result;
+  for (const auto e : edges(mesh))
+    if (is_marked[e]) result.emplace_back(Index(source(e, mesh)), Index(target(e, mesh)));
+  return result;
+}
+
+/// Adapts `mesh` and returns the edges that lie on features then.
+Edges adapt_with_features(Mesh& mesh, double size, unsigned rounds)
+{
+  const Edges_map is_feature = mesh.add_property_map<Mesh::Edge_index, bool>("e:feature", false).first;
+  SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size),
+                          SMA::parameters::edge_is_constrained_map(is_feature).number_of_iterations(rounds));
+  return marked_edges(mesh, is_feature);
+}
+
+/// Largest angle in degrees between two faces that meet at an edge that is not in `features`.
+double sharpest_fold(const Soup& s, const Edges& features)
+{
+  std::set<std::pair<Index, Index>> is_feature;
+  for (const auto& e : features) is_feature.insert(std::minmax(e.first, e.second));
+  const auto normal = [&](Index a, Index b, Index c) -> Vector_3 {
+    return (s.points[b] - s.points[a]).cross(s.points[c] - s.points[a]);
+  };
+  const checks::Edge_map edges(s.triangles);
+  double sharpest = 0;
+  checks::for_each_edge(s.triangles, [&](Index a, Index b) {
+    const Index left = edges.apex(a, b), right = edges.apex(b, a);
+    if (left == shapes::no_index || right == shapes::no_index || is_feature.count(std::minmax(a, b)) != 0) return;
+    const Vector_3 m = normal(a, b, left), n = normal(b, a, right);
+    sharpest = (std::max)(sharpest, std::atan2(m.cross(n).norm(), m.dot(n)) * 180 / shapes::pi);
+  });
+  return sharpest;
+}
+
+/// Largest distance from the ends and middles of `from_edges` to `to_edges`.
+double largest_distance(const Soup& from, const Edges& from_edges, const Soup& to, const Edges& to_edges)
+{
+  double largest = 0;
+  for (const auto& e : from_edges)
+    for (const Vector_3& p : {from.points[e.first], Vector_3((from.points[e.first] + from.points[e.second]) / 2)}) {
+      double least = 1e300;
+      for (const auto& f : to_edges)
+        least = (std::min)(least, checks::distance_to_segment(p, to.points[f.first], to.points[f.second]));
+      largest = (std::max)(largest, least);
+    }
+  return largest;
+}
+
+class Sharp_mesh : public ::testing::TestWithParam<const char*>
+{};
+
+TEST_P(Sharp_mesh, keeps_its_features)
+{
+  Mesh mesh = real_mesh<Mesh>(GetParam());
+  const double h = shapes::soup(mesh).mean_edge_length();
+  const Edges before = adapt_with_features(mesh, h, 0); // no round: only detected
+  const Soup input = shapes::soup(mesh);
+  ASSERT_FALSE(before.empty());
+  for (const auto e : edges(mesh)) put(mesh.property_map<Mesh::Edge_index, bool>("e:feature").first, e, false);
+  const Edges after = adapt_with_features(mesh, 0.7 * h, SMA::default_number_of_rounds);
+  const Soup output = shapes::soup(mesh);
+  // both ways: none is lost, none appears; curved ridges are rounder than the polylines of the input
+  EXPECT_LT(largest_distance(input, before, output, after), 0.2 * h);
+  EXPECT_LT(largest_distance(output, after, input, before), 0.2 * h);
+}
+
+TEST_P(Sharp_mesh, is_not_folded_between_its_features)
+{
+  Mesh mesh = real_mesh<Mesh>(GetParam());
+  const Edges features =
+    adapt_with_features(mesh, 0.4 * shapes::soup(mesh).mean_edge_length(), SMA::default_number_of_rounds);
+  EXPECT_LT(sharpest_fold(shapes::soup(mesh), features), 90); // 45 in the input
+}
+
+std::string name_of_mesh(const ::testing::TestParamInfo<const char*>& mesh) { return test_name(mesh.param); }
+
+INSTANTIATE_TEST_SUITE_P(Adapt, Sharp_mesh,
+                         ::testing::Values("fandisk", "cube-meshed", "rotor_small", "anchor", "couplingdown"),
+                         name_of_mesh);
+
+// Analytic surfaces
+
+struct Shape
+{
+  const char* name;
+  Soup soup;
+};
+
+std::vector<Shape> analytic_shapes()
+{
+  Soup two = shapes::sphere(2);
+  Soup moved = shapes::torus(24, 12, 0.2);
+  for (Vector_3& p : moved.points) p[0] += 5;
+  shapes::append(two, moved);
+  return {{"sphere", shapes::sphere(3, 0.3)},
+          {"torus", shapes::torus(32, 16, 0.25)},
+          {"square", shapes::square(12, 0.25)},
+          {"open cylinder", shapes::open_cylinder(24, 8, 2, 0.25)},
+          {"capped cylinder", shapes::capped_cylinder(24, 8, 2)},
+          {"cube", shapes::cube(5)},
+          {"two components", two},
+          {"tetrahedron", shapes::tetrahedron()},
+          {"octahedron", shapes::octahedron()}};
+}
+
+TEST(Adapt, keeps_the_topology_of_analytic_surfaces)
+{
+  for (const Shape& shape : analytic_shapes())
+    for (const double size : {3.0, 1.0, 0.5, 0.25}) {
+      SCOPED_TRACE(std::string(shape.name) + " at size " + std::to_string(size));
+      Mesh mesh = shapes::mesh<Mesh>(shape.soup);
+      SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size * shape.soup.mean_edge_length()));
+      expect_same_surface(shape.soup, mesh);
+    }
+}
+
+TEST(Adapt, reaches_the_size_and_a_good_quality_on_analytic_surfaces)
+{
+  for (const Shape& shape : analytic_shapes()) {
+    SCOPED_TRACE(shape.name);
+    Mesh mesh = shapes::mesh<Mesh>(shape.soup);
+    const double size = 0.3 * shape.soup.mean_edge_length();
+    SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size));
+    const Soup result = shapes::soup(mesh);
+    std::size_t edges = 0, in_range = 0; // counted here, not by the report
+    checks::for_each_edge(result.triangles, [&](Index a, Index b) {
+      const double length = (result.points[a] - result.points[b]).norm() / size;
+      ++edges;
+      in_range += length >= std::sqrt(0.5) && length <= std::sqrt(2.0);
+    });
+    EXPECT_GT(double(in_range), 0.95 * double(edges));
+    // halves of squares with sides of size 1 conform already, and nothing prefers another arrangement
+    EXPECT_GT(checks::mean_quality(result), std::string(shape.name) == "cube" ? 0.85 : 0.95);
+    EXPECT_GT(checks::least_quality(result), 0.3);
+  }
+}
+
+TEST(Adapt, reports_what_it_reached)
+{
+  const Soup before = shapes::torus(32, 16, 0.25);
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  const double size = 0.07;
+  const SMA::Adaptation_report report =
+    SMA::adapt_surface_mesh<CGAL::Sequential_tag>(mesh, SMA::Uniform_metric_field(size));
+  const Soup after = shapes::soup(mesh);
+  EXPECT_EQ(report.execution, "sequential");
+  EXPECT_EQ(report.threads, 1);
+  EXPECT_EQ(report.initial.faces, before.triangles.size());
+  EXPECT_EQ(report.final.vertices, after.points.size());
+  EXPECT_EQ(report.final.edges, num_edges(mesh));
+  EXPECT_EQ(report.after_round.size(), report.rounds);
+  EXPECT_NEAR(report.initial.mean_quality, checks::mean_quality(before), 1e-12);
+  EXPECT_NEAR(report.final.mean_quality, checks::mean_quality(after), 1e-12);
+  EXPECT_NEAR(report.final.min_quality, checks::least_quality(after), 1e-12);
+  double sum = 0;
+  checks::for_each_edge(after.triangles, [&](Index a, Index b) { sum += (after.points[a] - after.points[b]).norm(); });
+  EXPECT_NEAR(report.final.mean_length, sum / size / double(num_edges(mesh)), 1e-12);
+}
+
+TEST(Adapt, stays_near_smooth_surfaces)
+{
+  // third order of the patches, with normals of first order only: measured, times two
+  const Soup sphere = shapes::sphere(3, 0.3), torus = shapes::torus(48, 24, 0.25);
+  for (const double size : {1.0, 0.4}) {
+    Mesh mesh = shapes::mesh<Mesh>(sphere);
+    SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size * sphere.mean_edge_length()));
+    for (const Vector_3& p : shapes::soup(mesh).points) EXPECT_NEAR(p.norm(), 1, 2e-4);
+    EXPECT_GT(checks::least_area(shapes::soup(mesh), [](const Vector_3& p) { return p; }), 0);
+
+    Mesh other = shapes::mesh<Mesh>(torus);
+    SMA::adapt_surface_mesh(other, SMA::Uniform_metric_field(size * torus.mean_edge_length()));
+    for (const Vector_3& p : shapes::soup(other).points) {
+      const double distance = std::hypot(std::hypot(p[0], p[1]) - shapes::torus_large_radius, p[2]);
+      EXPECT_NEAR(distance, shapes::torus_small_radius, 2e-3);
+    }
+    EXPECT_GT(checks::least_area(shapes::soup(other), shapes::torus_normal), 0);
+  }
+}
+
+TEST(Adapt, keeps_planes_and_straight_boundaries_exactly)
+{
+  const Soup before = shapes::square(10, 0.3);
+  for (const double size : {0.3, 0.05}) {
+    Mesh mesh = shapes::mesh<Mesh>(before);
+    SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size));
+    const Soup after = shapes::soup(mesh);
+    EXPECT_NEAR(checks::area(after), 1, 1e-12);
+    EXPECT_GT(checks::least_area(after, [](const Vector_3&) { return Vector_3(0, 0, 1); }), 0);
+    for (const double x : {0.0, 1.0})
+      for (const double y : {0.0, 1.0})
+        EXPECT_EQ(std::count(after.points.begin(), after.points.end(), Vector_3(x, y, 0)), 1);
+  }
+}
+
+TEST(Adapt, follows_the_sizes_of_a_formula)
+{
+  const Soup before = shapes::square(20);
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  const auto size = [](const Vector_3& p) { return 0.01 + 0.1 * std::abs(p[0] - 0.5); };
+  SMA::adapt_surface_mesh(mesh, SMA::Analytic_metric_field(size));
+  const Soup after = shapes::soup(mesh);
+  std::size_t edges = 0, in_range = 0;
+  checks::for_each_edge(after.triangles, [&](Index a, Index b) {
+    const double length = (after.points[a] - after.points[b]).norm() / size((after.points[a] + after.points[b]) / 2);
+    ++edges;
+    in_range += length > 0.7 && length < 1.42;
+  });
+  EXPECT_GT(double(in_range), 0.93 * double(edges));
+}
+
+/// Size 0.3 along the x axis and 0.03 across.
+Metric_tensor_3 stretched(const Vector_3&) { return Metric_tensor_3(1 / 0.09, 0, 1 / 0.0009, 0, 0, 1 / 0.0009); }
+
+TEST(Adapt, follows_an_anisotropic_tensor)
+{
+  const Soup before = shapes::square(10, 0.2);
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  const SMA::Adaptation_report report = SMA::adapt_surface_mesh(mesh, SMA::Analytic_metric_field(stretched));
+  const Soup after = shapes::soup(mesh);
+  ASSERT_TRUE(checks::is_manifold(after));
+  EXPECT_NEAR(checks::area(after), 1, 1e-12);
+  EXPECT_GT(report.final.in_range, 0.9);
+  EXPECT_GT(report.final.mean_quality, 0.9);
+  // 1 / (sqrt 3 / 2 * 0.3 * 0.03) vertices would tile the plane; the boundary needs some more
+  EXPECT_NEAR(double(after.points.size()), 1 / (0.866 * 0.009), 60);
+}
+
+// The same for all
+
+struct Outcome
+{
+  Soup soup;
+  std::vector<Metric_tensor_3> metrics;
+};
+
+template <class Execution, class MetricField>
+Outcome outcome(const Execution& execution, Mesh mesh, const MetricField& field)
+{
+  const Metric_map metric = mesh.add_property_map<Mesh::Vertex_index, Metric_tensor_3>("v:metric").first;
+  SMA::adapt_surface_mesh(execution, mesh, field, SMA::parameters::output_metric_map(metric));
+  Outcome result{shapes::soup(mesh), {}};
+  for (const auto v : vertices(mesh)) result.metrics.push_back(metric[v]);
+  return result;
+}
+
+template <class MetricField>
+void expect_same_for_all_policies(const Mesh& mesh, const MetricField& field)
+{
+  Outcome first;
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    SCOPED_TRACE(name);
+    const Outcome o = outcome(execution, mesh, field);
+    if (first.soup.points.empty()) first = o;
+    EXPECT_TRUE(checks::is_identical(o.soup, first.soup));
+    EXPECT_TRUE(o.metrics == first.metrics);
+  });
+  EXPECT_GT(first.soup.points.size(), 4096u) << "too small: everything fits into one task";
+}
+
+TEST(Adapt, gives_the_same_bits_with_every_policy_for_a_uniform_size)
+{
+  const Mesh mesh = real_mesh<Mesh>("elephant");
+  expect_same_for_all_policies(mesh, SMA::Uniform_metric_field(0.7 * shapes::soup(mesh).mean_edge_length()));
+}
+
+TEST(Adapt, gives_the_same_bits_with_every_policy_when_it_coarsens)
+{
+  const Mesh mesh = real_mesh<Mesh>("mannequin-devil");
+  expect_same_for_all_policies(mesh, SMA::Uniform_metric_field(1.6 * shapes::soup(mesh).mean_edge_length()));
+}
+
+TEST(Adapt, gives_the_same_bits_with_every_policy_for_the_curvature)
+{
+  expect_same_for_all_policies(real_mesh<Mesh>("fandisk"), SMA::Curvature_metric_field(0.00005));
+}
+
+TEST(Adapt, gives_the_same_bits_with_every_policy_for_an_anisotropic_tensor)
+{
+  const auto tensor = [](const Vector_3& p) {
+    const Vector_3 t = Vector_3(-p[1], p[0], 0).normalized(); // along the torus three times as long as across
+    return Metric_tensor_3(SMA::Matrix_3(2500 * SMA::Matrix_3::Identity() - 2500 * 8.0 / 9 * t * t.transpose()));
+  };
+  expect_same_for_all_policies(shapes::mesh<Mesh>(shapes::torus(48, 24, 0.25)), SMA::Analytic_metric_field(tensor));
+}
+
+TEST(Adapt, gives_the_same_bits_when_it_is_done_again)
+{
+  const Mesh mesh = real_mesh<Mesh>("rotor_small");
+  const SMA::Uniform_metric_field field(0.8 * shapes::soup(mesh).mean_edge_length());
+  const SMA::Default_parallel_execution execution(2);
+  const Outcome first = outcome(execution, mesh, field), second = outcome(execution, mesh, field);
+  EXPECT_TRUE(checks::is_identical(first.soup, second.soup));
+}
+
+TEST(Adapt, writes_the_metric_that_it_used)
+{
+  const auto size = [](const Vector_3& p) { return 0.05 + 0.02 * p[2]; };
+  const Outcome o =
+    outcome(SMA::Sequential_execution(), shapes::mesh<Mesh>(shapes::sphere(2)), SMA::Analytic_metric_field(size));
+  ASSERT_EQ(o.metrics.size(), o.soup.points.size());
+  for (std::size_t v = 0; v < o.metrics.size(); ++v) {
+    const double l = 1 / (size(o.soup.points[v]) * size(o.soup.points[v]));
+    for (const int diagonal : {0, 2, 5}) EXPECT_NEAR(o.metrics[v][diagonal], l, 1e-12 * l);
+    for (const int off_diagonal : {1, 3, 4}) EXPECT_EQ(o.metrics[v][off_diagonal], 0);
+  }
+}
+
+} // namespace

@@ -1,0 +1,392 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The program `adapt_mesh`: formats, options, and for everything that can go wrong the exit status, one line on stderr,
+// and no file touched.
+
+#include "checks.h"
+#include "real_meshes.h"
+#include "shapes.h"
+
+#include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
+#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+
+#include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace {
+
+namespace SMA = CGAL::Surface_mesh_adaptation;
+namespace fs = std::filesystem;
+using shapes::Soup;
+using shapes::Vector_3;
+
+std::string content(const fs::path& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+std::string off(const Soup& soup)
+{
+  std::ostringstream out;
+  out.precision(17);
+  out << "OFF\n" << soup.points.size() << ' ' << soup.triangles.size() << " 0\n";
+  for (const Vector_3& p : soup.points) out << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+  for (const shapes::Triangle& t : soup.triangles) out << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+  return out.str();
+}
+
+Soup read(const fs::path& file)
+{
+  std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
+  std::vector<std::vector<std::size_t>> polygons;
+  Soup s;
+  if (file.extension() == ".mesh") {
+    const SMA::Medit_mesh m = SMA::read_medit_mesh(file.string());
+    for (const auto& p : m.points) s.points.emplace_back(p[0], p[1], p[2]);
+    for (const auto& t : m.triangles) s.triangles.push_back({t[0], t[1], t[2]});
+    return s;
+  }
+  EXPECT_TRUE(CGAL::IO::read_polygon_soup(file.string(), points, polygons));
+  for (const auto& p : points) s.points.emplace_back(p.x(), p.y(), p.z());
+  for (const auto& t : polygons) s.triangles.push_back({shapes::Index(t[0]), shapes::Index(t[1]), shapes::Index(t[2])});
+  return s;
+}
+
+struct Outcome
+{
+  int status;
+  std::string out, err;
+};
+
+class Adapt_mesh : public ::testing::Test
+{
+protected:
+  Adapt_mesh()
+  {
+    const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    folder_ = fs::temp_directory_path() / ("adapt_mesh-" + std::to_string(::getpid()) + "-" + test);
+    fs::create_directories(folder_);
+    write(path("in.off"), off(sphere_));
+  }
+  ~Adapt_mesh() override
+  {
+    fs::permissions(folder_, fs::perms::owner_all);
+    fs::remove_all(folder_);
+  }
+
+  fs::path path(const std::string& name) const { return folder_ / name; }
+
+  /// Runs the program in the folder of the test.
+  Outcome run(const std::string& arguments) const
+  {
+    const std::string command = "cd '" + folder_.string() + "' && '" ADAPT_MESH "' " + arguments + " >.out 2>.err";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(path(".out")), content(path(".err"))};
+  }
+
+  std::set<std::string> files() const
+  {
+    std::set<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_))
+      if (entry.path().filename() != ".out" && entry.path().filename() != ".err") names.insert(entry.path().string());
+    return names;
+  }
+
+  /// Expects the program to fail with `status` and one line on stderr that contains `message`, and nothing to be
+  /// written, nor the output that is there to be touched.
+  void expect_failure(int status, const std::string& arguments, const std::string& message = "") const
+  {
+    SCOPED_TRACE(arguments);
+    write(path("out.off"), "precious");
+    const auto before = files();
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, status);
+    EXPECT_EQ(r.out, "");
+    EXPECT_EQ(r.err.find("adapt_mesh: "), 0u) << r.err;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
+    EXPECT_EQ(r.err.back(), '\n');
+    EXPECT_NE(r.err.find(message), std::string::npos) << r.err;
+    EXPECT_EQ(content(path("out.off")), "precious");
+    EXPECT_EQ(files(), before);
+  }
+
+  void expect_success(const std::string& arguments) const
+  {
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.status, 0) << arguments << '\n' << r.err;
+  }
+
+  Soup sphere_ = shapes::sphere(2);
+  fs::path folder_;
+};
+
+// What it is for
+
+TEST_F(Adapt_mesh, reads_and_writes_all_formats)
+{
+  const std::vector<std::string> formats = {"off", "obj", "ply", "stl", "mesh"};
+  for (const std::string& f : formats) expect_success("in.off first." + f + " --size 0.3 --quiet");
+  Soup first = read(path("first.off"));
+  ASSERT_TRUE(checks::is_manifold(first));
+  for (const std::string& from : formats)
+    for (const std::string& to : {std::string("off"), std::string("mesh")}) {
+      SCOPED_TRACE(from + " to " + to);
+      expect_success("first." + from + " second." + to + " --size 0.1 --quiet");
+      const Soup second = read(path("second." + to));
+      ASSERT_TRUE(checks::is_manifold(second));
+      EXPECT_EQ(checks::topology(second).euler_characteristic, 2);
+      EXPECT_GT(checks::least_area(second, [](const Vector_3& p) { return p; }), 0);
+    }
+  // formats with all digits give the same points
+  for (const std::string f : {"obj", "mesh", "ply"}) {
+    const Soup other = read(path("first." + f));
+    ASSERT_EQ(other.points.size(), first.points.size()) << f;
+    if (f != "ply") {
+      EXPECT_EQ(other.points, first.points) << f; // CGAL writes binary ply in its own precision
+    }
+  }
+}
+
+TEST_F(Adapt_mesh, adapts_to_a_size)
+{
+  expect_success("in.off out.off --size 0.1");
+  const Soup after = read(path("out.off"));
+  EXPECT_GT(checks::mean_quality(after), 0.95);
+  EXPECT_NEAR(after.mean_edge_length(), 0.1, 0.02);
+}
+
+TEST_F(Adapt_mesh, gives_the_same_file_with_every_execution)
+{
+  expect_success("in.off first.off --size 0.03 --execution sequential");
+#ifdef CGAL_LINKED_WITH_TBB
+  expect_success("in.off second.off --size 0.03 --execution tbb --threads 3");
+  EXPECT_EQ(content(path("second.off")), content(path("first.off")));
+#endif
+#ifdef _OPENMP
+  expect_success("in.off third.off --size 0.03 --execution openmp --threads 2");
+  EXPECT_EQ(content(path("third.off")), content(path("first.off")));
+#endif
+}
+
+TEST_F(Adapt_mesh, adapts_to_the_curvature_and_keeps_the_ridges)
+{
+  write(path("in.off"), off(shapes::capped_cylinder(40, 6, 2)));
+  expect_success("in.off out.mesh --curvature 0.002 --hmin 0.01 --hmax 0.3");
+  expect_success("in.off aniso.off --curvature 0.002 --anisotropic");
+  const SMA::Medit_mesh m = SMA::read_medit_mesh(path("out.mesh").string());
+  EXPECT_GT(m.ridges.size(), 30u);
+  for (const auto r : m.ridges)
+    for (const auto v : m.edges[r]) {
+      EXPECT_NEAR(std::hypot(m.points[v][0], m.points[v][1]), 1, 0.01);
+      EXPECT_LT((std::min)(std::abs(m.points[v][2]), std::abs(m.points[v][2] - 2)), 1e-9);
+    }
+}
+
+TEST_F(Adapt_mesh, adapts_to_a_metric_from_a_file_and_writes_it)
+{
+  SMA::Medit_solution sizes, tensors;
+  tensors.components = 6;
+  for (const Vector_3& p : sphere_.points) {
+    const double h = p[2] > 0 ? 0.05 : 0.2;
+    sizes.values.push_back(h);
+    for (const double c : {1 / (h * h), 0.0, 1 / (h * h), 0.0, 0.0, 1 / (h * h)}) tensors.values.push_back(c);
+  }
+  SMA::write_medit_solution(path("sizes.sol").string(), sizes);
+  SMA::write_medit_solution(path("tensors.sol").string(), tensors);
+  for (const std::string kind : {"sizes", "tensors"}) {
+    expect_success("in.off out.off --metric " + kind + ".sol --output-metric out.sol --report out.json");
+    const Soup after = read(path("out.off"));
+    std::size_t upper = 0;
+    for (const Vector_3& p : after.points) upper += p[2] > 0;
+    EXPECT_GT(upper, 3 * (after.points.size() - upper));
+    const SMA::Medit_solution metric = SMA::read_medit_solution(path("out.sol").string());
+    ASSERT_EQ(metric.components, 6);
+    ASSERT_EQ(metric.number_of_vertices(), after.points.size());
+    for (std::size_t v = 0; v < after.points.size(); ++v)
+      if (std::abs(after.points[v][2]) > 0.5) {
+        EXPECT_NEAR(1 / std::sqrt(metric.values[6 * v]), after.points[v][2] > 0 ? 0.05 : 0.2, 1e-6);
+      }
+    EXPECT_NE(content(path("out.json")).find("\"final\": {\"vertices\": " + std::to_string(after.points.size())),
+              std::string::npos);
+  }
+}
+
+TEST_F(Adapt_mesh, overwrites_its_input_if_asked_to)
+{
+  expect_success("in.off in.off --size 0.1");
+  EXPECT_GT(read(path("in.off")).points.size(), 2 * sphere_.points.size());
+}
+
+TEST_F(Adapt_mesh, prints_a_summary_only_if_not_quiet)
+{
+  const Outcome talkative = run("in.off out.off --size 0.2"), quiet = run("in.off out.off --size 0.2 --quiet"),
+                verbose = run("in.off out.off --size 0.2 --verbose");
+  for (const char* word : {"vertices", "quality", "distance", "time"})
+    EXPECT_NE(talkative.out.find(word), std::string::npos);
+  EXPECT_NE(talkative.err.find("round 1/"), std::string::npos);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+  EXPECT_NE(verbose.err.find("refine"), std::string::npos);
+}
+
+TEST_F(Adapt_mesh, explains_itself)
+{
+  const Outcome help = run("--help"), version = run("--version");
+  EXPECT_EQ(help.status, 0);
+  EXPECT_EQ(version.status, 0);
+  for (const char* option : {"--size", "--curvature", "--metric", "--threads", "--report", "Exit status"})
+    EXPECT_NE(help.out.find(option), std::string::npos) << option;
+  EXPECT_EQ(version.out.find("adapt_mesh "), 0u);
+}
+
+// What goes wrong
+
+TEST_F(Adapt_mesh, refuses_a_command_line_that_makes_no_sense)
+{
+  expect_failure(2, "");
+  expect_failure(2, "in.off");
+  expect_failure(2, "in.off out.off");
+  expect_failure(2, "in.off out.off third.off --size 0.1");
+  expect_failure(2, "in.off out.off --size 0.1 --curvature 0.01", "exactly one");
+  expect_failure(2, "in.off out.off --nonsense", "nonsense");
+  expect_failure(2, "in.off out.off --siz 0.1", "siz");
+  expect_failure(2, "in.off out.off --size", "size");
+  expect_failure(2, "in.off out.off --size 0.1 --anisotropic", "--anisotropic");
+  expect_failure(2, "in.off out.off --size 0.1 --hmin 0.1", "--hmin");
+  expect_failure(2, "in.off out.off --curvature 0.1 --hmin 0.2 --hmax 0.1", "--hmin");
+  expect_failure(2, "in.off out.off --size 0.1 --no-features --feature-angle 30", "--feature-angle");
+  expect_failure(2, "in.off out.off --size 0.1 --execution threads", "--execution");
+  expect_failure(2, "in.off out.off --size 0.1 --execution sequential --threads 2", "--threads");
+  expect_failure(2, "in.off out.off --size 0.1 --quiet --verbose", "--quiet");
+}
+
+TEST_F(Adapt_mesh, refuses_numbers_out_of_range)
+{
+  for (const std::string option : {"--size", "--curvature", "--curvature 0.01 --hmin", "--curvature 0.01 --hmax",
+                                   "--size 0.1 --rounds", "--size 0.1 --threads", "--size 0.1 --feature-angle"})
+    for (const std::string value : {"0", "-1", "nan", "inf", "abc", "1e999", "''"})
+      expect_failure(2, "in.off out.off " + option + "=" + value);
+  expect_failure(2, "in.off out.off --size 0.1 --feature-angle 181", "--feature-angle");
+  expect_failure(2, "in.off out.off --size 0.1 --rounds 2.5", "rounds");
+}
+
+TEST_F(Adapt_mesh, says_what_is_not_available_yet)
+{
+  for (const std::string option : {"--field f.sol", "--vertices 100", "--gradation 1.5", "--tolerance 0.1"})
+    expect_failure(2, "in.off out.off --size 0.1 " + option, "not available yet");
+}
+
+TEST_F(Adapt_mesh, refuses_unknown_formats)
+{
+  write(path("in.xyz"), "0 0 0\n");
+  expect_failure(2, "in.xyz out.off --size 0.1", "in.xyz");
+  expect_failure(2, "in.off out.txt --size 0.1", "out.txt");
+  expect_failure(2, "in.off out --size 0.1", "out");
+  expect_failure(2, "in.off out.off --metric in.off", "in.off");
+  expect_failure(2, "in.off out.off --size 0.1 --output-metric out.txt", "out.txt");
+}
+
+TEST_F(Adapt_mesh, refuses_files_that_are_not_there)
+{
+  expect_failure(3, "absent.off out.off --size 0.1", "absent.off");
+  expect_failure(3, "absent.mesh out.off --size 0.1", "absent.mesh");
+  expect_failure(3, "in.off out.off --metric absent.sol", "absent.sol");
+  fs::create_directory(path("folder.off"));
+  expect_failure(3, "folder.off out.off --size 0.1", "folder.off");
+}
+
+TEST_F(Adapt_mesh, refuses_malformed_files_and_names_the_line)
+{
+  const std::string good = off(shapes::tetrahedron());
+  write(path("bad.off"), "");
+  expect_failure(3, "bad.off out.off --size 0.1", "bad.off");
+  write(path("bad.off"), "no mesh at all\n");
+  expect_failure(3, "bad.off out.off --size 0.1", "bad.off");
+  write(path("bad.off"), good.substr(0, good.size() - 12));
+  expect_failure(3, "bad.off out.off --size 0.1", "bad.off");
+  write(path("bad.off"), "OFF\n4000000000 4000000000 0\n0 0 0\n");
+  expect_failure(3, "bad.off out.off --size 0.1", "bad.off");
+  write(path("bad.off"), "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
+  expect_failure(3, "bad.off out.off --size 0.1", "bad.off");
+  write(path("bad.mesh"), "MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 zero 0\n");
+  expect_failure(3, "bad.mesh out.off --size 0.1", "bad.mesh:5: ");
+  write(path("bad.sol"), "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n1\n1 2\n");
+  expect_failure(3, "in.off out.off --metric bad.sol", "bad.sol:5: ");
+  for (const std::string format : {"obj", "ply", "stl"}) {
+    write(path("bad." + format), "solid nothing\nply v 0 0\nf 1 2 3\n");
+    expect_failure(3, "bad." + format + " out.off --size 0.1", "bad." + format);
+  }
+}
+
+TEST_F(Adapt_mesh, refuses_surfaces_that_are_no_triangulated_manifold)
+{
+  const auto expect_refusal = [&](const std::string& text, const std::string& message) {
+    write(path("bad.off"), text);
+    expect_failure(3, "bad.off out.off --size 0.1", "bad.off");
+    expect_failure(3, "bad.off out.off --size 0.1", message);
+  };
+  expect_refusal("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "face 0");
+  expect_refusal("OFF\n3 1 0\n0 0 0\n1 0 0\nnan 1 0\n3 0 1 2\n", "");
+  expect_refusal("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 1\n", "face 0");
+  expect_refusal("OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 -1\n3 0 1 2\n3 0 1 3\n3 0 1 4\n", "vertex");
+  expect_refusal("OFF\n5 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 0 -1\n3 0 1 2\n3 0 3 4\n", "vertex 0");
+  expect_refusal("OFF\n0 0 0\n", "");
+}
+
+TEST_F(Adapt_mesh, refuses_metrics_that_do_not_fit)
+{
+  SMA::Medit_solution metric;
+  metric.values.assign(sphere_.points.size() - 1, 0.1);
+  SMA::write_medit_solution(path("m.sol").string(), metric);
+  expect_failure(3, "in.off out.off --metric m.sol", "m.sol");
+  for (const double bad : {0.0, -1.0}) {
+    metric.values.assign(sphere_.points.size(), 0.1);
+    metric.values[17] = bad;
+    SMA::write_medit_solution(path("m.sol").string(), metric);
+    expect_failure(3, "in.off out.off --metric m.sol", "vertex 17");
+  }
+  metric.components = 6;
+  metric.values.assign(6 * sphere_.points.size(), 0);
+  SMA::write_medit_solution(path("m.sol").string(), metric);
+  expect_failure(3, "in.off out.off --metric m.sol", "vertex 0");
+}
+
+TEST_F(Adapt_mesh, fails_early_where_it_may_not_write)
+{
+  expect_failure(1, "in.off absent/out.off --size 0.1", "absent/out.off");
+  expect_failure(1, "in.off out.off --size 0.1 --report absent/out.json", "absent/out.json");
+  expect_failure(1, "in.off out.off --size 0.1 --output-metric absent/out.sol", "absent/out.sol");
+  fs::create_directory(path("folder.off"));
+  expect_failure(1, "in.off folder.off --size 0.1", "folder.off");
+}
+
+TEST_F(Adapt_mesh, leaves_no_part_of_a_file)
+{
+  expect_success("in.off out.off --size 0.1 --report out.json --output-metric out.sol --quiet");
+  std::set<std::string> expected;
+  for (const char* name : {"in.off", "out.off", "out.json", "out.sol"}) expected.insert(path(name).string());
+  EXPECT_EQ(files(), expected);
+}
+
+TEST_F(Adapt_mesh, finds_the_meshes_of_cgal_by_name)
+{
+  expect_success("meshes/elephant.off out.off --size 0.05 --quiet");
+  EXPECT_TRUE(checks::is_manifold(read(path("out.off"))));
+}
+
+} // namespace

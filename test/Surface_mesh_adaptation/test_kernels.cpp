@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Each kernel alone, through its public function, on surfaces that are known: what it may never break, and that it does
+// what it is for.
+
+#include "checks.h"
+#include "policies.h"
+#include "shapes.h"
+
+#include <CGAL/Surface_mesh_adaptation/refine.h>
+#include <CGAL/Surface_mesh_adaptation/relocate.h>
+#include <CGAL/Surface_mesh_adaptation/simplify.h>
+#include <CGAL/Surface_mesh_adaptation/swap.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace {
+
+namespace SMA = CGAL::Surface_mesh_adaptation;
+namespace params = SMA::parameters;
+using shapes::Index;
+using shapes::Soup;
+using shapes::Vector_3;
+using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+
+/// Calls a kernel; needed since functions that are templates are no values.
+struct Kernel
+{
+  const char* name;
+  double size; ///< as a multiple of the mean edge length, at which the kernel finds much to do
+  std::function<std::size_t(Mesh&, const SMA::Uniform_metric_field&)> run;
+};
+
+std::vector<Kernel> kernels()
+{
+  return {{"refine", 0.3, [](Mesh& m, const auto& field) { return SMA::refine(m, field); }},
+          {"simplify", 2, [](Mesh& m, const auto& field) { return SMA::simplify(m, field); }},
+          {"swap", 1, [](Mesh& m, const auto& field) { return SMA::swap(m, field); }},
+          {"relocate", 1, [](Mesh& m, const auto& field) { return SMA::relocate(m, field); }}};
+}
+
+/// A surface of which the normal is known between its ridges.
+struct Shape
+{
+  const char* name;
+  Soup soup;
+  std::function<Vector_3(const Vector_3&)> normal;
+  std::function<double(const Vector_3&)> distance;
+};
+
+constexpr double cylinder_height = 2;
+
+std::vector<Shape> smooth_shapes()
+{
+  const auto radial = [](const Vector_3& p) { return Vector_3(p[0], p[1], 0); };
+  return {{"sphere", shapes::sphere(3, 0.5), [](const Vector_3& p) { return p; },
+           [](const Vector_3& p) { return std::abs(p.norm() - 1); }},
+          {"torus", shapes::torus(48, 24, 0.25), shapes::torus_normal,
+           [](const Vector_3& p) {
+    const double r = std::hypot(std::hypot(p[0], p[1]) - shapes::torus_large_radius, p[2]);
+    return std::abs(r - shapes::torus_small_radius);
+           }},
+          {"square", shapes::square(16, 0.25), [](const Vector_3&) { return Vector_3(0, 0, 1); },
+           [](const Vector_3& p) { return std::abs(p[2]); }},
+          {"open cylinder", shapes::open_cylinder(32, 12, cylinder_height, 0.25), radial,
+           [](const Vector_3& p) { return std::abs(std::hypot(p[0], p[1]) - 1); }}};
+}
+
+class Kernels : public ::testing::TestWithParam<std::size_t>
+{
+protected:
+  Kernel kernel_ = kernels()[GetParam()];
+
+  /// Runs the kernel on `soup` and expects it to have done something.
+  Soup result(const Soup& soup, Mesh& mesh) const
+  {
+    mesh = shapes::mesh<Mesh>(soup);
+    EXPECT_GT(kernel_.run(mesh, SMA::Uniform_metric_field(kernel_.size * soup.mean_edge_length())), 0u);
+    return shapes::soup(mesh);
+  }
+};
+
+TEST_P(Kernels, keep_a_manifold_of_the_same_topology)
+{
+  for (const Shape& shape : smooth_shapes()) {
+    SCOPED_TRACE(shape.name);
+    Mesh mesh;
+    const Soup after = result(shape.soup, mesh);
+    ASSERT_TRUE(CGAL::is_valid_polygon_mesh(mesh));
+    EXPECT_FALSE(mesh.has_garbage());
+    ASSERT_TRUE(checks::is_manifold(after));
+    EXPECT_EQ(checks::topology(after), checks::topology(shape.soup));
+  }
+}
+
+TEST_P(Kernels, turn_no_face_over_and_stay_on_the_surface)
+{
+  for (const Shape& shape : smooth_shapes()) {
+    SCOPED_TRACE(shape.name);
+    ASSERT_GT(checks::least_area(shape.soup, shape.normal), 0);
+    Mesh mesh;
+    const Soup after = result(shape.soup, mesh);
+    const double h = shape.soup.mean_edge_length();
+    EXPECT_GT(checks::least_area(after, shape.normal), 0);
+    for (const Vector_3& p : after.points) EXPECT_LT(shape.distance(p), 0.15 * h * h);
+  }
+}
+
+TEST_P(Kernels, keep_the_boundary_of_a_square)
+{
+  Mesh mesh;
+  const Soup after = result(shapes::square(16, 0.25), mesh);
+  EXPECT_NEAR(checks::area(after), 1, 1e-12);
+  const auto count = [&](double x, double y) {
+    return std::count(after.points.begin(), after.points.end(), Vector_3(x, y, 0));
+  };
+  for (const double x : {0.0, 1.0})
+    for (const double y : {0.0, 1.0}) EXPECT_EQ(count(x, y), 1);
+  for (const auto h : mesh.halfedges()) {
+    if (!mesh.is_border(h)) continue;
+    const auto p = mesh.point(mesh.target(h));
+    EXPECT_LT((std::min)({std::abs(p.x()), std::abs(1 - p.x()), std::abs(p.y()), std::abs(1 - p.y())}), 1e-12);
+  }
+}
+
+TEST_P(Kernels, keep_the_ridges_of_a_capped_cylinder)
+{
+  const std::size_t around = 48;
+  const Soup before = shapes::capped_cylinder(around, 12, cylinder_height);
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  const auto is_ridge = mesh.add_property_map<Mesh::Edge_index, bool>("e:ridge", false).first;
+  const double size = kernel_.size * before.mean_edge_length();
+  const auto np = params::edge_is_constrained_map(is_ridge);
+  if (std::string(kernel_.name) == "refine") SMA::refine(mesh, SMA::Uniform_metric_field(size), np);
+  if (std::string(kernel_.name) == "simplify") SMA::simplify(mesh, SMA::Uniform_metric_field(size), np);
+  if (std::string(kernel_.name) == "swap") SMA::swap(mesh, SMA::Uniform_metric_field(size), np);
+  if (std::string(kernel_.name) == "relocate") SMA::relocate(mesh, SMA::Uniform_metric_field(size), np);
+
+  ASSERT_TRUE(checks::is_manifold(shapes::soup(mesh)));
+  const double chord_error = 1 - std::cos(shapes::pi / double(around));
+  double length = 0;
+  for (const auto e : mesh.edges()) {
+    if (!is_ridge[e]) continue;
+    const auto p = mesh.point(mesh.vertex(e, 0)), q = mesh.point(mesh.vertex(e, 1));
+    length += std::sqrt(CGAL::squared_distance(p, q));
+    EXPECT_NEAR(std::hypot(p.x(), p.y()), 1, chord_error);
+    EXPECT_NEAR(p.z(), q.z(), 1e-12);
+    EXPECT_LT((std::min)(std::abs(p.z()), std::abs(p.z() - cylinder_height)), 1e-12);
+  }
+  // two circles: longer chords make them shorter, but not by much
+  EXPECT_LT(length, 2 * 2 * shapes::pi * (1 + 1e-3));
+  EXPECT_GT(length, 2 * 2 * shapes::pi * 0.95);
+}
+
+TEST_P(Kernels, keep_a_cube_exactly)
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::cube(6));
+  kernel_.run(mesh, SMA::Uniform_metric_field(kernel_.size * shapes::cube(6).mean_edge_length()));
+  const Soup after = shapes::soup(mesh);
+  ASSERT_TRUE(checks::is_manifold(after));
+  EXPECT_NEAR(checks::area(after), 24, 1e-9);
+  std::size_t corners = 0;
+  for (const Vector_3& p : after.points) {
+    EXPECT_NEAR(p.cwiseAbs().maxCoeff(), 1, 1e-12);
+    if (p.cwiseAbs().isOnes(1e-12)) ++corners;
+  }
+  EXPECT_EQ(corners, 8u);
+}
+
+TEST_P(Kernels, give_the_same_bits_with_every_policy)
+{
+  const Soup before = shapes::torus(120, 60, 0.25);
+  const SMA::Uniform_metric_field field(kernel_.size * before.mean_edge_length());
+  Soup first;
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    Mesh mesh = shapes::mesh<Mesh>(before);
+    if (std::string(kernel_.name) == "refine") SMA::refine(execution, mesh, field);
+    if (std::string(kernel_.name) == "simplify") SMA::simplify(execution, mesh, field);
+    if (std::string(kernel_.name) == "swap") SMA::swap(execution, mesh, field);
+    if (std::string(kernel_.name) == "relocate") SMA::relocate(execution, mesh, field);
+    const Soup after = shapes::soup(mesh);
+    if (first.points.empty()) first = after;
+    EXPECT_TRUE(checks::is_identical(after, first)) << name;
+  });
+  EXPECT_FALSE(first.triangles == before.triangles && first.points == before.points);
+}
+
+TEST_P(Kernels, stop_when_nothing_is_left_to_do)
+{
+  // once it is done, doing it again changes little or nothing
+  const Soup before = shapes::sphere(3, 0.5);
+  const SMA::Uniform_metric_field field(kernel_.size * before.mean_edge_length());
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  const std::size_t first = kernel_.run(mesh, field), second = kernel_.run(mesh, field);
+  EXPECT_LE(second, first / 5);
+}
+
+TEST_P(Kernels, survive_hostile_shapes)
+{
+  shapes::Random random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    Soup soup = trial % 2 == 0 ? shapes::sphere(2) : shapes::torus(9, 7);
+    for (Vector_3& p : soup.points) {
+      p += 0.5 * random.vector();
+      if (random.below(10) == 0) p = soup.points[random.below(soup.points.size())]; // degenerate faces
+    }
+    for (const double size : {0.1, 0.3, 1.0}) {
+      Mesh mesh = shapes::mesh<Mesh>(soup);
+      kernel_.run(mesh, SMA::Uniform_metric_field(size));
+      ASSERT_TRUE(checks::is_manifold(shapes::soup(mesh)));
+      ASSERT_EQ(checks::topology(shapes::soup(mesh)), checks::topology(soup));
+    }
+  }
+}
+
+std::string name_of_kernel(const ::testing::TestParamInfo<std::size_t>& i) { return kernels()[i.param].name; }
+
+INSTANTIATE_TEST_SUITE_P(Alone, Kernels, ::testing::Range(std::size_t(0), std::size_t(4)), name_of_kernel);
+
+// What each is for
+
+struct Lengths
+{
+  std::size_t edges = 0, too_long = 0, too_short = 0;
+};
+
+Lengths lengths(const Soup& soup, double size)
+{
+  Lengths l;
+  checks::for_each_edge(soup.triangles, [&](Index a, Index b) {
+    const double length = (soup.points[a] - soup.points[b]).norm() / size;
+    ++l.edges;
+    l.too_long += length > std::sqrt(2.0) * (1 + 1e-12);
+    l.too_short += length < std::sqrt(0.5);
+  });
+  return l;
+}
+
+TEST(Refine, leaves_hardly_a_long_edge)
+{
+  for (const Shape& shape : smooth_shapes())
+    for (const double relative : {0.5, 0.2}) {
+      SCOPED_TRACE(shape.name);
+      Mesh mesh = shapes::mesh<Mesh>(shape.soup);
+      const double size = relative * shape.soup.mean_edge_length();
+      const std::size_t split = SMA::refine(mesh, SMA::Uniform_metric_field(size));
+      const Lengths l = lengths(shapes::soup(mesh), size);
+      EXPECT_LE(l.too_long, l.edges / 1000); // only where a split would turn a face over
+      EXPECT_EQ(num_vertices(mesh), shape.soup.points.size() + split);
+    }
+}
+
+TEST(Refine, keeps_the_vertices_of_the_input)
+{
+  const Soup before = shapes::torus(24, 12, 0.3);
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  SMA::refine(mesh, SMA::Uniform_metric_field(0.06));
+  const Soup after = shapes::soup(mesh);
+  const auto less = [](const Vector_3& a, const Vector_3& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  };
+  std::vector<Vector_3> sorted = after.points;
+  std::sort(sorted.begin(), sorted.end(), less);
+  for (const Vector_3& p : before.points) EXPECT_TRUE(std::binary_search(sorted.begin(), sorted.end(), p, less));
+}
+
+TEST(Refine, does_nothing_on_a_mesh_that_is_fine_enough)
+{
+  const Soup before = shapes::sphere(3);
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  EXPECT_EQ(SMA::refine(mesh, SMA::Uniform_metric_field(1)), 0u);
+  EXPECT_EQ(num_vertices(mesh), before.points.size());
+}
+
+TEST(Simplify, leaves_few_short_edges_and_makes_no_long_one)
+{
+  for (const Shape& shape : smooth_shapes()) {
+    SCOPED_TRACE(shape.name);
+    Mesh mesh = shapes::mesh<Mesh>(shape.soup);
+    const double size = 2.5 * shape.soup.mean_edge_length();
+    const std::size_t removed = SMA::simplify(mesh, SMA::Uniform_metric_field(size));
+    const Lengths l = lengths(shapes::soup(mesh), size);
+    // all were too short; what is left cannot be collapsed without making a long edge: the other kernels help there
+    EXPECT_LT(double(l.too_short), 0.25 * double(l.edges));
+    EXPECT_EQ(l.too_long, 0u);
+    EXPECT_EQ(num_vertices(mesh) + removed, shape.soup.points.size());
+  }
+}
+
+TEST(Simplify, moves_no_vertex)
+{
+  const Soup before = shapes::torus(48, 24, 0.3);
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  SMA::simplify(mesh, SMA::Uniform_metric_field(0.3));
+  for (const Vector_3& p : shapes::soup(mesh).points)
+    EXPECT_EQ(std::count(before.points.begin(), before.points.end(), p), 1);
+}
+
+TEST(Swap, raises_the_mean_quality_and_not_the_number_of_bad_faces)
+{
+  for (const Shape& shape : smooth_shapes()) {
+    SCOPED_TRACE(shape.name);
+    Mesh mesh = shapes::mesh<Mesh>(shape.soup);
+    EXPECT_GT(SMA::swap(mesh, SMA::Uniform_metric_field(3 * shape.soup.mean_edge_length())), 0u);
+    const Soup after = shapes::soup(mesh);
+    EXPECT_GT(checks::mean_quality(after), checks::mean_quality(shape.soup));
+    EXPECT_GE(checks::least_quality(after), checks::least_quality(shape.soup) * (1 - 1e-9));
+    EXPECT_EQ(after.triangles.size(), shape.soup.triangles.size());
+  }
+}
+
+TEST(Swap, restores_a_triangulation_that_was_scrambled)
+{
+  // all diagonals the long way in a strip of squares that lean over: each swap that helps is found
+  Soup leaning = shapes::grid(30, 30, false, false, 0, [](double u, double v) { return Vector_3(u + 0.5 * v, v, 0); });
+  Mesh mesh = shapes::mesh<Mesh>(leaning);
+  SMA::swap(mesh, SMA::Uniform_metric_field(1));
+  const Soup after = shapes::soup(mesh);
+  EXPECT_GT(checks::mean_quality(after), 0.94); // the short diagonal gives 0.96, the long one 0.56
+}
+
+TEST(Relocate, raises_the_mean_and_the_least_quality)
+{
+  for (const Shape& shape : smooth_shapes()) {
+    SCOPED_TRACE(shape.name);
+    Mesh mesh = shapes::mesh<Mesh>(shape.soup);
+    EXPECT_GT(SMA::relocate(mesh, SMA::Uniform_metric_field(shape.soup.mean_edge_length())), 0u);
+    const Soup after = shapes::soup(mesh);
+    EXPECT_GT(checks::mean_quality(after), checks::mean_quality(shape.soup));
+    EXPECT_GE(checks::least_quality(after), checks::least_quality(shape.soup) * (1 - 1e-9));
+    EXPECT_EQ(after.points.size(), shape.soup.points.size());
+  }
+}
+
+TEST(Relocate, spreads_the_vertices_of_a_boundary_evenly)
+{
+  // all vertices of the boundary of a square but its corners start near one end of their side
+  Soup skewed = shapes::grid(10, 10, false, false, 0, [](double u, double v) { return Vector_3(u * u, v * v, 0); });
+  Mesh mesh = shapes::mesh<Mesh>(skewed);
+  SMA::relocate(mesh, SMA::Uniform_metric_field(0.1), params::number_of_iterations(200));
+  double longest = 0, shortest = 1;
+  for (const auto e : mesh.edges()) {
+    if (!mesh.is_border(e)) continue;
+    const double l = std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
+    longest = (std::max)(longest, l);
+    shortest = (std::min)(shortest, l);
+  }
+  EXPECT_LT(longest, 0.13); // 0.19 and 0.01 at the start
+  EXPECT_GT(shortest, 0.07);
+}
+
+TEST(Kernel, stops_after_the_sweeps_asked_for)
+{
+  const Soup before = shapes::sphere(2);
+  Mesh once = shapes::mesh<Mesh>(before), all = once, none = once;
+  const SMA::Uniform_metric_field field(0.02);
+  const std::size_t in_one_sweep = SMA::refine(once, field, params::number_of_iterations(1));
+  EXPECT_EQ(in_one_sweep, before.triangles.size() * 3 / 2); // each edge is split once
+  EXPECT_LT(in_one_sweep, SMA::refine(all, field));
+  EXPECT_EQ(SMA::refine(none, field, params::number_of_iterations(0)), 0u);
+}
+
+TEST(Kernel, asks_the_visitor_after_each_sweep)
+{
+  struct Visitor : SMA::Adaptation_visitor
+  {
+    int left = 2;
+    bool go_on() { return --left > 0; }
+  };
+  Mesh twice = shapes::mesh<Mesh>(shapes::sphere(2)), stopped = twice;
+  const SMA::Uniform_metric_field field(0.02);
+  Visitor visitor;
+  EXPECT_EQ(SMA::refine(stopped, field, params::visitor(std::ref(visitor))),
+            SMA::refine(twice, field, params::number_of_iterations(2)));
+  EXPECT_EQ(visitor.left, 0);
+}
+
+} // namespace

@@ -1,0 +1,513 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The connectivity: reading and writing face graphs, the primitives, and by brute force the claim on which all
+// parallelism rests: that operations with disjoint claims may be applied together, in any order.
+
+#include "checks.h"
+#include "shapes.h"
+
+#include <CGAL/Surface_mesh_adaptation/face_graph.h>
+#include <CGAL/Surface_mesh_adaptation/restructure.h>
+
+#include <CGAL/Polyhedron_3.h>
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/graph_traits_Polyhedron_3.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace SMA = CGAL::Surface_mesh_adaptation;
+using checks::Topology;
+using shapes::Index;
+using shapes::no_index;
+using shapes::Random;
+using shapes::Soup;
+using shapes::Triangle;
+using shapes::Vector_3;
+using SMA::Mesh_view;
+using Kernel = CGAL::Simple_cartesian<double>;
+using Surface_mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Polyhedron = CGAL::Polyhedron_3<Kernel>;
+
+// Operations
+
+bool is_flippable(const Mesh_view& m, Index h)
+{
+  return !m.is_removed_face(h / 3) && !m.is_border(h) && !m.is_feature(h) &&
+         !m.are_adjacent(m.apex(h), m.apex(m.twin[h]));
+}
+
+std::vector<Mesh_view::Directed_edge> collapsible_edges(const Mesh_view& m)
+{
+  std::vector<Mesh_view::Directed_edge> result;
+  for (Index h = 0; h < m.number_of_halfedges(); ++h) {
+    if (m.is_removed_face(h / 3)) continue;
+    for (const bool source_vanishes : {true, false}) {
+      const Mesh_view::Directed_edge e{h, source_vanishes};
+      if ((source_vanishes || m.is_border(h)) && m.is_collapsible(e)) result.push_back(e);
+    }
+  }
+  return result;
+}
+
+std::vector<Index> flippable_edges(const Mesh_view& m)
+{
+  std::vector<Index> result;
+  for (Index h = 0; h < m.number_of_halfedges(); ++h)
+    if (is_flippable(m, h) && m.is_edge_owner(h)) result.push_back(h);
+  return result;
+}
+
+std::vector<Index> closed_ring(const Mesh_view& m, Index v)
+{
+  std::vector<Index> ring{v};
+  m.for_each_neighbor(v, [&](Index w) { ring.push_back(w); });
+  return ring;
+}
+
+std::vector<Index> four_vertices(const Mesh_view& m, Index h)
+{
+  return {m.source(h), m.target(h), m.apex(h), m.apex(m.twin[h])};
+}
+
+/// A random maximal set of operations whose claims are disjoint, in random order.
+template <class Operation, class Claims>
+std::vector<Operation> independent(const Mesh_view& m, std::vector<Operation> candidates, Random& random,
+                                   const Claims& claims)
+{
+  random.shuffle(candidates);
+  std::vector<bool> is_claimed(m.number_of_vertices(), false);
+  std::vector<Operation> chosen;
+  for (const Operation& o : candidates) {
+    const std::vector<Index> mine = claims(o);
+    if (std::any_of(mine.begin(), mine.end(), [&](Index v) { return is_claimed[v]; })) continue;
+    for (const Index v : mine) is_claimed[v] = true;
+    chosen.push_back(o);
+  }
+  random.shuffle(chosen);
+  return chosen;
+}
+
+// Surfaces
+
+/// Flips edges at random, which gives vertices of degree 3 and of high degree.
+void scramble(Mesh_view& m, std::size_t flips, Random& random)
+{
+  for (std::size_t i = 0; i < flips; ++i) {
+    const Index h = Index(random.below(m.number_of_halfedges()));
+    if (is_flippable(m, h)) m.flip(h);
+  }
+}
+
+/// Marks random edges, and the boundary, as feature curves.
+void add_features(Mesh_view& m, double share, Random& random)
+{
+  for (Index h = 0; h < m.number_of_halfedges(); ++h)
+    if (m.is_border(h) || random.real() < share) m.set_curve(h, Index(random.below(5)));
+}
+
+std::vector<Soup> small_surfaces()
+{
+  return {shapes::tetrahedron(),
+          shapes::octahedron(),
+          shapes::icosahedron(),
+          shapes::sphere(1),
+          shapes::torus(4, 3),
+          shapes::torus(7, 5),
+          shapes::square(1),
+          shapes::square(2),
+          shapes::square(5),
+          shapes::cube(2),
+          shapes::open_cylinder(3, 1, 1),
+          shapes::open_cylinder(6, 3, 1),
+          {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}};
+}
+
+/// Calls `test(view, random)` for many scrambled versions of the small surfaces.
+template <class Test>
+void for_many_views(std::size_t trials, const Test& test)
+{
+  Random random(7);
+  for (const Soup& soup : small_surfaces())
+    for (std::size_t i = 0; i < trials; ++i) {
+      Mesh_view m = shapes::view(soup);
+      scramble(m, i % 4 == 0 ? 0 : 3 * soup.triangles.size(), random);
+      test(m, random);
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+}
+
+TEST(Mesh_view, walks_the_fans_of_closed_and_open_surfaces)
+{
+  for (const Soup& soup : small_surfaces()) {
+    const Mesh_view m = shapes::view(soup);
+    ASSERT_TRUE(checks::is_valid(m));
+    std::vector<std::vector<Index>> neighbors(soup.points.size());
+    checks::for_each_edge(soup.triangles, [&](Index a, Index b) {
+      neighbors[a].push_back(b);
+      neighbors[b].push_back(a);
+    });
+    for (Index v = 0; v < soup.points.size(); ++v) {
+      std::vector<Index> ring = closed_ring(m, v);
+      EXPECT_EQ(m.degree(v), neighbors[v].size());
+      ring.erase(ring.begin());
+      EXPECT_TRUE(std::is_permutation(ring.begin(), ring.end(), neighbors[v].begin(), neighbors[v].end()));
+      for (Index w = 0; w < soup.points.size(); ++w)
+        EXPECT_EQ(m.are_adjacent(v, w), std::count(ring.begin(), ring.end(), w) == 1);
+    }
+  }
+}
+
+TEST(Mesh_view, stays_a_manifold_under_random_flips)
+{
+  for_many_views(40, [](Mesh_view& m, Random& random) {
+    const Topology before = checks::topology(m);
+    scramble(m, 100, random);
+    ASSERT_TRUE(checks::is_valid(m));
+    ASSERT_EQ(checks::topology(m), before);
+  });
+}
+
+TEST(Mesh_view, is_as_it_was_after_a_flip_there_and_back)
+{
+  for_many_views(10, [](Mesh_view& m, Random& random) {
+    for (const Index h : flippable_edges(m)) {
+      const std::vector<Index> v = four_vertices(m, h);
+      std::size_t n = 0;
+      const auto edge_set = [&](const Mesh_view& x) {
+        std::vector<std::pair<Index, Index>> edges;
+        checks::for_each_edge(checks::live_triangles(x, n),
+                              [&](Index a, Index b) { edges.push_back(std::minmax(a, b)); });
+        std::sort(edges.begin(), edges.end());
+        return edges;
+      };
+      const auto before = edge_set(m);
+      Mesh_view flipped = m;
+      flipped.flip(h);
+      ASSERT_TRUE(flipped.are_adjacent(v[2], v[3]));
+      ASSERT_FALSE(flipped.are_adjacent(v[0], v[1]));
+      ASSERT_NE(edge_set(flipped), before);
+      flipped.flip(flipped.halfedge(v[2], v[3]));
+      ASSERT_EQ(edge_set(flipped), before);
+      if (random.below(3) == 0) break;
+    }
+  });
+}
+
+TEST(Mesh_view, stays_a_manifold_under_any_collapse_that_it_allows)
+{
+  std::size_t allowed = 0;
+  for_many_views(20, [&](Mesh_view& m, Random& random) {
+    add_features(m, 0.1, random);
+    const Topology before = checks::topology(m);
+    for (const Mesh_view::Directed_edge& e : collapsible_edges(m)) {
+      Mesh_view collapsed = m;
+      const Index s = m.vanishing_vertex(e), d = m.kept_vertex(e);
+      const bool was_border = m.is_border_vertex(d);
+      collapsed.collapse(e);
+      ASSERT_TRUE(checks::is_valid(collapsed));
+      ASSERT_EQ(checks::topology(collapsed), before);
+      ASSERT_TRUE(collapsed.is_removed_vertex(s));
+      ASSERT_EQ(collapsed.is_border_vertex(d), was_border);
+      ++allowed;
+    }
+  });
+  EXPECT_GT(allowed, 1000u);
+}
+
+TEST(Mesh_view, refuses_every_collapse_of_the_smallest_surfaces)
+{
+  const Soup triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  for (const Soup& soup : {shapes::tetrahedron(), triangle}) EXPECT_TRUE(collapsible_edges(shapes::view(soup)).empty());
+  // the hole of a cylinder that is a triangle cannot shrink
+  const Mesh_view m = shapes::view(shapes::open_cylinder(3, 4, 1));
+  for (const auto& e : collapsible_edges(m)) EXPECT_FALSE(m.is_border(e.h));
+}
+
+TEST(Mesh_view, keeps_both_curves_of_a_wedge_that_vanishes)
+{
+  Mesh_view m = shapes::view(shapes::sphere(1));
+  const Mesh_view::Directed_edge e = collapsible_edges(m).front();
+  const Index s = m.vanishing_vertex(e), d = m.kept_vertex(e), a = m.apex(e.h), b = m.apex(m.twin[e.h]);
+  m.set_curve(m.halfedge(s, a), 3); // the vanishing side
+  m.set_curve(m.halfedge(d, b), 4); // the side that stays
+  m.collapse(e);
+  EXPECT_EQ(m.curve[m.halfedge(d, a)], 3u);
+  EXPECT_EQ(m.curve[m.halfedge(d, b)], 4u);
+  ASSERT_TRUE(checks::is_valid(m));
+}
+
+// Independence
+
+TEST(Independence, of_collapses_with_disjoint_closed_rings)
+{
+  std::size_t collapses = 0;
+  for_many_views(400, [&](Mesh_view& m, Random& random) {
+    add_features(m, random.below(2) == 0 ? 0.1 : 0, random);
+    const Topology before = checks::topology(m);
+    for (int round = 0; round < 4; ++round) {
+      const auto chosen = independent(m, collapsible_edges(m), random, [&](const Mesh_view::Directed_edge& e) {
+        return closed_ring(m, m.vanishing_vertex(e));
+      });
+      for (const auto& e : chosen) m.collapse(e);
+      ASSERT_TRUE(checks::is_valid(m));
+      ASSERT_EQ(checks::topology(m), before);
+      collapses += chosen.size();
+    }
+  });
+  EXPECT_GT(collapses, 10000u);
+}
+
+TEST(Independence, of_flips_with_disjoint_vertices)
+{
+  std::size_t flips = 0;
+  for_many_views(400, [&](Mesh_view& m, Random& random) {
+    add_features(m, random.below(2) == 0 ? 0.1 : 0, random);
+    const Topology before = checks::topology(m);
+    for (int round = 0; round < 4; ++round) {
+      const auto chosen = independent(m, flippable_edges(m), random, [&](Index h) { return four_vertices(m, h); });
+      for (const Index h : chosen) m.flip(h);
+      ASSERT_TRUE(checks::is_valid(m));
+      ASSERT_EQ(checks::topology(m), before);
+      flips += chosen.size();
+    }
+  });
+  EXPECT_GT(flips, 10000u);
+}
+
+/// With claims that are too small something must break, else the two tests above prove nothing.
+TEST(Independence, needs_the_whole_neighbourhood)
+{
+  std::size_t broken_by_collapses = 0, broken_by_flips = 0;
+  Random random(8);
+  for (int i = 0; i < 200; ++i) {
+    Mesh_view m = shapes::view(shapes::sphere(1)), n = m;
+    scramble(m, 200, random);
+    scramble(n, 200, random);
+    // the edges of disjoint pairs of faces: two of them may create the same edge, or one that the other saw missing
+    for (const Index h : independent(n, flippable_edges(n), random, [&](Index h) {
+           return std::vector<Index>{h / 3, n.twin[h] / 3};
+         }))
+      n.flip(h);
+    if (!checks::is_valid(n)) ++broken_by_flips;
+
+    // vertices that vanish are not adjacent: the rings may still share vertices
+    bool is_whole = true;
+    for (const auto& e : independent(m, collapsible_edges(m), random, [&](const Mesh_view::Directed_edge& x) {
+           return std::vector<Index>{m.vanishing_vertex(x), m.kept_vertex(x)};
+         })) {
+      is_whole = is_whole && !m.is_removed_face(e.h / 3) && m.is_collapsible(e);
+      if (!is_whole) break;
+      m.collapse(e);
+    }
+    if (!is_whole) ++broken_by_collapses;
+  }
+  EXPECT_GT(broken_by_flips, 20u);
+  EXPECT_GT(broken_by_collapses, 20u);
+}
+
+// Restructuring
+
+/// Marks edges at random, on both sides, and a random diagonal where there is a choice.
+std::vector<std::uint8_t> random_marks(const Mesh_view& m, double share, Random& random)
+{
+  std::vector<std::uint8_t> codes(m.number_of_faces(), 0);
+  const auto mark = [&](Index h) { codes[h / 3] = std::uint8_t(codes[h / 3] | 1u << (h % 3)); };
+  for (Index h = 0; h < m.number_of_halfedges(); ++h) {
+    if (m.is_removed_face(h / 3) || !m.is_edge_owner(h) || random.real() >= share) continue;
+    mark(h);
+    if (!m.is_border(h)) mark(m.twin[h]);
+  }
+  for (std::uint8_t& c : codes)
+    if ((c == 3 || c == 5 || c == 6) && random.below(2) == 0) c = std::uint8_t(c | 8);
+  return codes;
+}
+
+std::size_t number_of_marks(const Mesh_view& m, const std::vector<std::uint8_t>& codes, bool on_curves_only)
+{
+  std::size_t n = 0;
+  for (Index h = 0; h < m.number_of_halfedges(); ++h)
+    if (!m.is_removed_face(h / 3) && m.is_edge_owner(h) && (codes[h / 3] >> (h % 3) & 1) != 0 &&
+        (m.is_feature(h) || !on_curves_only))
+      ++n;
+  return n;
+}
+
+std::size_t number_of_feature_edges(const Mesh_view& m)
+{
+  std::size_t n = 0;
+  for (Index h = 0; h < m.number_of_halfedges(); ++h)
+    if (!m.is_removed_face(h / 3) && m.is_edge_owner(h) && m.is_feature(h)) ++n;
+  return n;
+}
+
+TEST(Restructuring, splits_any_set_of_edges)
+{
+  const SMA::Sequential_execution sequential;
+  for_many_views(150, [&](Mesh_view& m, Random& random) {
+    add_features(m, 0.2, random);
+    const Topology before = checks::topology(m);
+    for (int round = 0; round < 3; ++round) {
+      std::size_t old_vertices = 0, new_vertices = 0;
+      const auto codes = random_marks(m, random.real(), random);
+      checks::live_triangles(m, old_vertices);
+      const std::size_t features = number_of_feature_edges(m) + number_of_marks(m, codes, true);
+      const SMA::Restructuring plan(sequential, m, codes);
+      Mesh_view refined;
+      plan.build(sequential, refined);
+      ASSERT_TRUE(checks::is_valid(refined));
+      ASSERT_EQ(checks::topology(refined), before);
+      checks::live_triangles(refined, new_vertices);
+      ASSERT_EQ(new_vertices, old_vertices + number_of_marks(m, codes, false));
+      ASSERT_EQ(new_vertices, refined.number_of_vertices()) << "there is a hole";
+      ASSERT_EQ(new_vertices, plan.number_of_vertices());
+      ASSERT_EQ(number_of_feature_edges(refined), features);
+      m = refined;
+      // holes for the next round
+      const auto chosen = independent(m, collapsible_edges(m), random, [&](const Mesh_view::Directed_edge& e) {
+        return closed_ring(m, m.vanishing_vertex(e));
+      });
+      for (const auto& e : chosen) m.collapse(e);
+    }
+  });
+}
+
+TEST(Restructuring, cuts_every_face_along_its_own_edges)
+{
+  const SMA::Sequential_execution sequential;
+  Random random(9);
+  const Soup square = shapes::square(6, 0.2);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Mesh_view m = shapes::view(square);
+    const auto codes = random_marks(m, 0.5, random);
+    const SMA::Restructuring plan(sequential, m, codes);
+    Mesh_view refined;
+    plan.build(sequential, refined);
+    Soup after{std::vector<Vector_3>(refined.number_of_vertices(), Vector_3::Constant(1e9)), {}};
+    for (Index v = 0; v < m.number_of_vertices(); ++v) after.points[plan.vertex(v)] = square.points[v];
+    for (Index h = 0; h < m.number_of_halfedges(); ++h)
+      if (plan.is_split(h))
+        after.points[plan.midpoint(h)] = (square.points[m.source(h)] + square.points[m.target(h)]) / 2;
+    std::size_t n = 0;
+    after.triangles = checks::live_triangles(refined, n);
+    EXPECT_NEAR(checks::area(after), 1, 1e-12);
+    EXPECT_GT(checks::least_area(after, [](const Vector_3&) { return Vector_3(0, 0, 1); }), 0);
+  }
+}
+
+TEST(Restructuring, knows_all_sixteen_patterns)
+{
+  using SMA::internal::Split_pattern;
+  for (std::uint8_t code = 0; code < 16; ++code) {
+    const int marks = (code & 1) + (code >> 1 & 1) + (code >> 2 & 1);
+    const Split_pattern& p = Split_pattern::of(code);
+    EXPECT_EQ(p.number_of_children, marks + 1);
+    // each child is upright, and together they fill the face
+    const Eigen::Vector2d points[6] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
+    double sum = 0;
+    for (std::size_t c = 0; c < std::size_t(p.number_of_children); ++c) {
+      const Eigen::Vector2d a = points[p.child[c][0]], b = points[p.child[c][1]] - a, d = points[p.child[c][2]] - a;
+      const double area = b[0] * d[1] - b[1] * d[0];
+      EXPECT_GT(area, 0);
+      sum += area;
+    }
+    EXPECT_DOUBLE_EQ(sum, 1);
+  }
+  EXPECT_NE(Split_pattern::of(3).child, Split_pattern::of(11).child);
+}
+
+// Face graphs
+
+template <class TriangleMesh>
+class Face_graph : public ::testing::Test
+{};
+
+using Face_graphs = ::testing::Types<Surface_mesh, Polyhedron>;
+TYPED_TEST_SUITE(Face_graph, Face_graphs, );
+
+/// Rotates each triangle so that its least corner comes first.
+std::vector<Triangle> canonical(std::vector<Triangle> triangles)
+{
+  for (Triangle& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return triangles;
+}
+
+std::vector<Triangle> triangles_of(const Mesh_view& m)
+{
+  std::vector<Triangle> t;
+  for (std::size_t h = 0; h < m.number_of_halfedges(); h += 3)
+    t.push_back({m.corner[h], m.corner[h + 1], m.corner[h + 2]});
+  return t;
+}
+
+TYPED_TEST(Face_graph, is_read_and_written_back)
+{
+  const SMA::Sequential_execution sequential;
+  for (const Soup& soup : small_surfaces()) {
+    auto graph = shapes::mesh<TypeParam>(soup);
+    const auto imported = SMA::internal::read_face_graph(sequential, graph, get(CGAL::vertex_point, graph));
+    ASSERT_TRUE(checks::is_valid(imported.mesh));
+    EXPECT_EQ(canonical(triangles_of(imported.mesh)), canonical(soup.triangles));
+    EXPECT_EQ(imported.points, soup.points);
+    for (Index h = 0; h < imported.mesh.number_of_halfedges(); ++h) {
+      EXPECT_EQ(imported.vertices[imported.mesh.source(h)], source(imported.halfedges[h], graph));
+      EXPECT_EQ(imported.vertices[imported.mesh.target(h)], target(imported.halfedges[h], graph));
+    }
+
+    TypeParam written = shapes::mesh<TypeParam>(shapes::tetrahedron()); // what was there goes
+    SMA::internal::write_connectivity(sequential, imported.mesh, written);
+    SMA::internal::write_points(imported.points, written, get(CGAL::vertex_point, written));
+    ASSERT_TRUE(CGAL::is_valid_polygon_mesh(written));
+    const Soup result = shapes::soup(written);
+    EXPECT_EQ(result.points, soup.points);
+    EXPECT_EQ(result.triangles, triangles_of(imported.mesh)) << "corners, or where faces start, have changed";
+    EXPECT_EQ(num_halfedges(written), num_halfedges(graph));
+  }
+}
+
+TYPED_TEST(Face_graph, has_its_boundary_cycles_written)
+{
+  const SMA::Sequential_execution sequential;
+  Soup soup = shapes::open_cylinder(7, 3, 1);
+  shapes::append(soup, shapes::square(3));
+  TypeParam graph;
+  SMA::internal::write_connectivity(sequential, shapes::view(soup), graph);
+  std::vector<std::size_t> lengths;
+  std::size_t border_halfedges = 0;
+  for (const auto h : halfedges(graph)) {
+    EXPECT_EQ(prev(next(h, graph), graph), h);
+    EXPECT_EQ(target(h, graph), source(next(h, graph), graph));
+    if (!is_border(h, graph)) continue;
+    ++border_halfedges;
+    EXPECT_TRUE(is_border(next(h, graph), graph));
+    std::size_t length = 1;
+    for (auto g = next(h, graph); g != h && length < 100; g = next(g, graph)) ++length;
+    lengths.push_back(length);
+  }
+  EXPECT_EQ(border_halfedges, 7u + 7u + 12u);
+  EXPECT_EQ(std::count(lengths.begin(), lengths.end(), 7u), 14);
+  EXPECT_EQ(std::count(lengths.begin(), lengths.end(), 12u), 12);
+}
+
+TEST(Face_graph_with_garbage, is_read_without_it)
+{
+  Surface_mesh mesh = shapes::mesh<Surface_mesh>(shapes::sphere(1));
+  for (int i = 0; i < 5; ++i) {
+    const auto all = mesh.edges();
+    CGAL::Euler::collapse_edge(
+      *std::find_if(all.begin(), all.end(),
+                    [&](Surface_mesh::Edge_index e) { return CGAL::Euler::does_satisfy_link_condition(e, mesh); }),
+      mesh);
+  }
+  ASSERT_TRUE(mesh.has_garbage());
+  const auto imported =
+    SMA::internal::read_face_graph(SMA::Sequential_execution(), mesh, get(CGAL::vertex_point, mesh));
+  ASSERT_TRUE(checks::is_valid(imported.mesh));
+  EXPECT_EQ(imported.mesh.number_of_vertices(), mesh.number_of_vertices());
+  EXPECT_EQ(imported.mesh.number_of_faces(), mesh.number_of_faces());
+  EXPECT_EQ(checks::topology(imported.mesh).euler_characteristic, 2);
+}
+
+} // namespace
