@@ -135,6 +135,7 @@ public:
 
   /// Least cosine between two faces that meet at a smooth edge of a face around `v`, if `v` were at `p`. Faces that
   /// degenerate there, as those of an edge that is collapsed, give their place to the face behind them.
+  /// Reads the faces behind those around `v`, so no vertex may move meanwhile.
   double sharpest_fold(Index v, const Vector_3& p) const
   {
     double least = 1;

@@ -58,8 +58,11 @@ public:
             !is_active(surface_, v, Activity::relocate))
           return;
         if (!block.contains_ring(mesh_, v)) return list.push_back(v);
+        const auto stands_still = [&](Index w) { return block.contains(w); }; // or has had its turn
+        Attempt<decltype(stands_still)> attempt{stands_still};
         ++c.candidates;
-        c.applied += examine(v);
+        c.applied += examine(v, attempt);
+        if (attempt.is_put_off) list.push_back(v);
       });
     sweep_border(deferred, local);
     min_move_ = thresholds_.min_move;
@@ -87,6 +90,14 @@ private:
     }
   };
 
+  /// What a task may look at outside of the one-ring, and whether that was too little.
+  template <class StandsStill>
+  struct Attempt
+  {
+    const StandsStill& stands_still;
+    bool is_put_off = false;
+  };
+
   struct Shape
   {
     double worst = 1;      ///< quality
@@ -105,17 +116,27 @@ private:
     });
     counts.candidates += vertices.size();
     moved_.resize(vertices.size());
-    for (const auto& nodes : color_classes(coloring))
-      for_each_index(execution_, nodes.size(), [&](std::size_t i) { moved_[nodes[i]] = examine(vertices[nodes[i]]); },
-                     heavy_chunk_length);
+    const auto classes = color_classes(coloring);
+    for (std::size_t color = 0; color < classes.size(); ++color) {
+      const auto stands_still = [&](Index w) {
+        return position_[w] == no_index || coloring.color[position_[w]] != color;
+      };
+      for_each_index(execution_, classes[color].size(), [&](std::size_t i) {
+        Attempt<decltype(stands_still)> attempt{stands_still};
+        moved_[classes[color][i]] = examine(vertices[classes[color][i]], attempt);
+      }, heavy_chunk_length);
+    }
     counts.applied += count_if(execution_, vertices.size(), [&](std::size_t i) { return moved_[i] != 0; });
   }
 
-  bool examine(Index v)
+  /// Tries to move `v`, while those vertices of which `attempt.stands_still` says so do not move.
+  template <class StandsStill>
+  bool examine(Index v, Attempt<StandsStill>& attempt)
   {
     const Star star = star_of(v);
-    const bool moved = surface_.vertex_class(v) == Vertex_class::curve ? slide(v, star) : diffuse(v, star);
-    if (!moved) deactivate(surface_, v, Activity::relocate);
+    const bool moved = surface_.vertex_class(v) == Vertex_class::curve ? slide(v, star, attempt)
+                                                                       : diffuse(v, star, attempt);
+    if (!moved && !attempt.is_put_off) deactivate(surface_, v, Activity::relocate);
     return moved;
   }
 
@@ -179,20 +200,30 @@ private:
   }
 
   /// Whether `moved` makes good faces all around, or else better ones than before.
-  bool is_acceptable(Index v, const Star& star, const Placed_vertex<Metric>& moved) const
+  template <class StandsStill>
+  bool is_acceptable(Index v, const Star& star, const Placed_vertex<Metric>& moved,
+                     Attempt<StandsStill>& attempt) const
   {
     if (is_good(star, moved)) return true;
     const Shape after = shape(star, moved);
     const Shape before = shape(star, surface_.vertex(v));
     return (after.worst > before.worst * min_improvement || after.worst >= thresholds_.good_quality) &&
-           is_upright(v, before, after, moved);
+           is_upright(v, before, after, moved, attempt);
   }
 
   /// Whether `moved` neither turns a face away from the surface nor folds it over a neighbour more than is the case.
-  bool is_upright(Index v, const Shape& before, const Shape& after, const Placed_vertex<Metric>& moved) const
+  /// That takes a look at the vertices behind the ring; if one of them may be moving meanwhile, the move is put off.
+  template <class StandsStill>
+  bool is_upright(Index v, const Shape& before, const Shape& after, const Placed_vertex<Metric>& moved,
+                  Attempt<StandsStill>& attempt) const
   {
-    return after.alignment >= (std::min)(min_alignment, before.alignment) &&
-           surface_.sharpest_fold(v, moved.point) >= (std::min)(min_fold, surface_.sharpest_fold(v, surface_.points[v]));
+    if (after.alignment < (std::min)(min_alignment, before.alignment)) return false;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      const Index behind = mesh_.twin[Mesh_view::next(h)];
+      if (behind != no_index && !attempt.stands_still(mesh_.apex(behind))) attempt.is_put_off = true;
+    });
+    return !attempt.is_put_off && surface_.sharpest_fold(v, moved.point) >=
+                                    (std::min)(min_fold, surface_.sharpest_fold(v, surface_.points[v]));
   }
 
   /// Displacement to the centre of mass of the faces around `v`, in its tangent plane.
@@ -212,13 +243,14 @@ private:
     return sum - sum.dot(normal) * normal;
   }
 
-  bool diffuse(Index v, const Star& star)
+  template <class StandsStill>
+  bool diffuse(Index v, const Star& star, Attempt<StandsStill>& attempt)
   {
     const Vector_3 t = displacement_to_center(v, star);
     if (!(surface_.metrics[v].length(t) > min_move_)) return false;
     for (const double scale : {relaxation_, relaxation_ / 2, relaxation_ / 4}) {
       const auto moved = surface_.place(surface_.reference().trace(surface_.locations[v], scale * t, true));
-      if (!is_acceptable(v, star, moved)) continue;
+      if (!is_acceptable(v, star, moved, attempt)) continue;
       const bool is_large = surface_.metrics[v].length(scale * t) > thresholds_.large_move;
       surface_.set(v, moved);
       activate_around(v, star, is_large);
@@ -228,7 +260,8 @@ private:
   }
 
   /// Moves a curve vertex to where its two curve edges have the same metric length.
-  bool slide(Index v, const Star& star)
+  template <class StandsStill>
+  bool slide(Index v, const Star& star, Attempt<StandsStill>& attempt)
   {
     const Index curve = surface_.locations[v].cell;
     Ring<Index> along;
@@ -249,7 +282,8 @@ private:
     for (const double scale : {1.0, 0.5}) {
       const auto moved = surface_.place(surface_.reference().on_curve(curve, arc0.first + scale * d));
       const Shape after = shape(star, moved);
-      if (after.worst < (std::min)(before.worst, min_slide_quality) || !is_upright(v, before, after, moved)) continue;
+      if (after.worst < (std::min)(before.worst, min_slide_quality) || !is_upright(v, before, after, moved, attempt))
+        continue;
       surface_.set(v, moved);
       activate_around(v, star, true);
       return true;
