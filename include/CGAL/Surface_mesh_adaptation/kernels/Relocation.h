@@ -115,7 +115,7 @@ private:
       });
     });
     counts.candidates += vertices.size();
-    moved_.resize(vertices.size());
+    outcome_.resize(vertices.size());
     const auto classes = color_classes(coloring);
     for (std::size_t color = 0; color < classes.size(); ++color) {
       const auto stands_still = [&](Index w) {
@@ -123,10 +123,24 @@ private:
       };
       for_each_index(execution_, classes[color].size(), [&](std::size_t i) {
         Attempt<decltype(stands_still)> attempt{stands_still};
-        moved_[classes[color][i]] = examine(vertices[classes[color][i]], attempt);
+        const bool moved = examine(vertices[classes[color][i]], attempt);
+        outcome_[classes[color][i]] = attempt.is_put_off ? put_off : std::uint8_t(moved);
       }, heavy_chunk_length);
     }
-    counts.applied += count_if(execution_, vertices.size(), [&](std::size_t i) { return moved_[i] != 0; });
+    counts.applied += count_if(execution_, vertices.size(), [&](std::size_t i) { return outcome_[i] == 1; });
+    examine_put_off(vertices, counts);
+  }
+
+  /// What had to look at vertices of its own colour is left for the end, one after the other: a few vertices near
+  /// features and in folds.
+  void examine_put_off(const std::vector<Index>& vertices, Sweep_counts& counts)
+  {
+    const auto stands_still = [](Index) { return true; };
+    const auto late = pack(execution_, vertices.size(), [&](std::size_t i) { return outcome_[i] == put_off; });
+    for (const std::uint32_t i : late) {
+      Attempt<decltype(stands_still)> attempt{stands_still};
+      counts.applied += examine(vertices[i], attempt);
+    }
   }
 
   /// Tries to move `v`, while those vertices of which `attempt.stands_still` says so do not move.
@@ -178,8 +192,8 @@ private:
     return s;
   }
 
-  /// Whether all faces around `v` have the quality `good_quality` and are flat: a test without roots and quotients,
-  /// which nearly all moves pass.
+  /// Whether all faces around the smooth vertex `v` have the quality `good_quality` and are so flat that they can be no
+  /// part of a fold: a test without roots and quotients, which nearly all moves pass.
   CGAL_SMA_FLATTEN bool is_good(const Star& star, const Placed_vertex<Metric>& v) const
   {
     const bool is_closed = star.is_closed;
@@ -191,10 +205,18 @@ private:
              .is_at_least(thresholds_.good_quality))
         return false;
       const double limit = flat_alignment * flat_alignment * normal.squaredNorm();
-      for (const Vector_3* m : {&v.normal, &star.normals[k], &star.normals[i]}) {
-        const double dot = normal.dot(*m); // 0 on features
-        if (!(dot > 0 && dot * dot >= limit)) return false;
-      }
+      const auto is_flat_at = [&](const Vector_3& m) {
+        const double dot = normal.dot(m);
+        return dot > 0 && dot * dot >= limit;
+      };
+      const bool is_first_smooth = star.normals[k] != Vector_3::Zero();
+      const bool is_second_smooth = star.normals[i] != Vector_3::Zero();
+      if (!is_flat_at(v.normal) || (is_first_smooth && !is_flat_at(star.normals[k])) ||
+          (is_second_smooth && !is_flat_at(star.normals[i])))
+        return false;
+      // with no smooth corner in common, nothing is known of the face behind, which matters unless the edge is a feature
+      if (!is_first_smooth && !is_second_smooth && !mesh_.is_feature(mesh_.halfedge(star.ring[k], star.ring[i])))
+        return false;
     }
     return true;
   }
@@ -304,7 +326,8 @@ private:
   double min_move_;
   double relaxation_ = plain_relaxation;
   std::vector<Index> position_;
-  Buffer<std::uint8_t> moved_;
+  static constexpr std::uint8_t put_off = 2; // an outcome besides moved (1) or not (0)
+  Buffer<std::uint8_t> outcome_;
 };
 
 } // namespace Surface_mesh_adaptation
