@@ -78,7 +78,7 @@ std::vector<Operation> independent(const Mesh_view& m, std::vector<Operation> ca
                                    const Claims& claims)
 {
   random.shuffle(candidates);
-  std::vector<bool> is_claimed(m.number_of_vertices(), false);
+  std::vector<bool> is_claimed(m.number_of_halfedges(), false); // claims are vertices or faces
   std::vector<Operation> chosen;
   for (const Operation& o : candidates) {
     const std::vector<Index> mine = claims(o);
