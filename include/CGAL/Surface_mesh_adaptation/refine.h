@@ -10,7 +10,8 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 
 /*!
-Splits the edges that are longer than `sqrt 2` in the metric, until there is none (paper, section 5).
+Splits the edges that are longer than `sqrt 2` in the metric, until none is left that can be split without turning a
+face over (paper, section 5).
 
 \param execution, mesh, field, np as for `adapt_surface_mesh`; `number_of_iterations` is the largest number of sweeps
        (default: 24), and the visitor's `go_on` is asked after each of them

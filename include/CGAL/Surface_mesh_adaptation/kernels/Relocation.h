@@ -7,7 +7,8 @@
 // their curve to balance the metric lengths on both sides; corners stay.
 //
 // Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Inside blocks
-// vertices are moved one after the other; those at block borders by colours.
+// vertices are moved one after the other; those at block borders by colours. Where a face is not flat, the test for folds
+// also looks at the vertices behind the ring: if these may be moving, the vertex is put off until they stand still.
 // Invariants: connectivity is not touched; no face is turned away from the surface; the worst face around a vertex
 // never falls below both what it was and `good_quality`.
 

@@ -4,7 +4,7 @@
 // (paper, figure 2 and section 5).
 //
 // Conflict neighbourhood of s -> d: the closed one-ring of s. The vertex d stays where it is, so nothing outside is
-// written; the design's brute-force trials and ours (test_independence) found no invalid result.
+// written; the design's brute-force trials and ours (test_mesh_view) found no invalid result.
 // Invariants: simplicial 2-manifold, components, genus, boundary cycles; corners stay; curve vertices vanish only
 // along their curve; no face turns away from the surface.
 // Work: O(active vertices) a sweep; span: the work of a block and the passes of the border.
