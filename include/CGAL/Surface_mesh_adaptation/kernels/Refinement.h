@@ -116,11 +116,23 @@ private:
     for_each_face([&](Index f) {
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
         const Index v = mesh_.corner[h];
-        if (mesh_.outgoing[v] == h) write(plan.vertex(v), surface_.vertex(v), surface_.origin[v], surface_.active[v]);
+        if (mesh_.outgoing[v] == h)
+          write(plan.vertex(v), surface_.vertex(v), surface_.origin[v],
+                is_at_split(v) ? all_kernels : surface_.active[v]);
         if (plan.is_split(h) && mesh_.is_edge_owner(h))
-          write(plan.midpoint(h), surface_.middle(h), no_index, std::uint8_t(0xff));
+          write(plan.midpoint(h), surface_.middle(h), no_index, all_kernels);
       }
     }, heavy_chunk_length);
+  }
+
+  bool is_at_split(Index v) const
+  {
+    bool found = false;
+    mesh_.for_each_outgoing_while(v, [&](Index h) {
+      found = codes_[Mesh_view::face(h)] != 0;
+      return !found;
+    });
+    return found;
   }
 
   void write(Index v, const Placed_vertex<Metric>& p, Index origin, std::uint8_t active)

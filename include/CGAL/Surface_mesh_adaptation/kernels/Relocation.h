@@ -33,7 +33,6 @@ struct Relocation_thresholds
   double good_quality = 0.8;   ///< moves that leave no face below are always accepted
   double min_move = 0.02;      ///< metric length below which a move is not worth it
   double noticeable_move = 0.1; ///< the same in the first sweep: a mesh that is adapted already is left as it is
-  double large_move = 0.06;    ///< metric length above which edges may have become too short or better swapped
 };
 
 template <class Surface, class Execution>
@@ -155,12 +154,26 @@ private:
     return moved;
   }
 
-  /// After a small move only the relocation of the neighbours has to be looked at again.
-  void activate_around(Index v, const Star& star, bool is_large)
+  /// The neighbours may move now; the other kernels look again only where the move left something for them.
+  CGAL_SMA_FLATTEN void activate_around(Index v, const Star& star, const Placed_vertex<Metric>& moved)
   {
-    const std::uint8_t kernels = is_large ? all_kernels : std::uint8_t(Activity::relocate);
-    activate(surface_, v, kernels);
-    for (Index w : star.ring) activate(surface_, w, kernels);
+    const auto both = [&](std::size_t i, Activity kernel) {
+      activate(surface_, v, std::uint8_t(kernel));
+      activate(surface_, star.ring[i], std::uint8_t(kernel));
+    };
+    for (std::size_t i = 0; i < star.ring.size(); ++i) {
+      both(i, Activity::relocate);
+      if (edge_length(moved.metric, star.metrics[i], star.points[i] - moved.point) < min_unit_length)
+        both(i, Activity::simplify);
+    }
+    star.for_each_face([&](std::size_t i, std::size_t j) {
+      const Vector_3 ea = star.points[i] - moved.point, eb = star.points[j] - moved.point;
+      if (internal::squared_shape(moved.metric, star.metrics[i], star.metrics[j], ea, eb, ea.cross(eb))
+            .is_at_least(max_improvable_quality))
+        return;
+      both(i, Activity::swap);
+      both(j, Activity::swap);
+    });
   }
 
   Star star_of(Index v) const
@@ -274,9 +287,8 @@ private:
     for (const double scale : {relaxation_, relaxation_ / 2, relaxation_ / 4}) {
       const auto moved = surface_.place(surface_.reference().trace(surface_.locations[v], scale * t, true));
       if (!is_acceptable(v, star, moved, attempt)) continue;
-      const bool is_large = surface_.metrics[v].length(scale * t) > thresholds_.large_move;
       surface_.set(v, moved);
-      activate_around(v, star, is_large);
+      activate_around(v, star, moved);
       return true;
     }
     return false;
@@ -308,7 +320,7 @@ private:
       if (after.worst < (std::min)(before.worst, min_slide_quality) || !is_upright(v, before, after, moved, attempt))
         continue;
       surface_.set(v, moved);
-      activate_around(v, star, true);
+      activate_around(v, star, moved);
       return true;
     }
     return false;

@@ -45,7 +45,8 @@ public:
     std::vector<Index> deferred = sweep_blocks(
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
-        if (!mesh_.is_removed_vertex(v) && sweep_edges_of(v, block, c)) list.push_back(v);
+        if (!mesh_.is_removed_vertex(v) && is_active(surface_, v, Activity::swap) && sweep_edges_of(v, block, c))
+          list.push_back(v);
       });
     for (std::uint32_t round = 0; !deferred.empty() && round < max_border_rounds; ++round)
       sweep_border(deferred, round, local);
@@ -94,7 +95,6 @@ private:
   static constexpr double least_gain = 1e-9;
   static constexpr double min_degree_swap_quality = 0.55; // degrees matter only among good faces
   static constexpr double max_quality_loss = 0.7;
-  static constexpr double max_improvable_quality = 0.9; // two such faces make two bad ones
   static constexpr double min_turn = 0.5;
 
   /// Works through the edges from `v` to larger ids that lie in the block; whether some do not.
@@ -123,7 +123,7 @@ private:
   {
     const Index w = mesh_.target(h);
     return v < w && !mesh_.is_feature(h) &&
-           (is_active(surface_, v, Activity::swap) || is_active(surface_, w, Activity::swap));
+           is_active(surface_, v, Activity::swap) && is_active(surface_, w, Activity::swap);
   }
 
   bool lies_in(const Block& block, Index h) const

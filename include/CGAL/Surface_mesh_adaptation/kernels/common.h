@@ -24,6 +24,9 @@ constexpr double min_alignment = 0.5;
 /// Least cosine between two faces at a smooth edge that an operation may create, unless it mends a sharper one.
 constexpr double min_fold = 0.0;
 
+/// Swaps leave alone an edge between two faces of at least this quality: its other diagonal makes two bad ones.
+constexpr double max_improvable_quality = 0.9;
+
 template <class Surface>
 bool is_active(const Surface& surface, Index v, Activity kernel)
 {
