@@ -36,11 +36,11 @@ public:
     report_.initial = mesh_statistics(execution_, surface_);
     for (round_ = 0; round_ < rounds && !report_.stopped; ++round_) {
       visitor_.round_begins(round_, rounds);
-      const std::size_t changed = do_round();
+      do_round();
       report_.after_round.push_back(mesh_statistics(execution_, surface_));
       visitor_.round_done(round_, report_.after_round.back());
       ++report_.rounds;
-      if (is_negligible(changed)) break;
+      if (!is_improving()) break;
     }
     refinement_.compact();
     report_.final = report_.after_round.empty() ? report_.initial : report_.after_round.back();
@@ -49,10 +49,9 @@ public:
   }
 
 private:
-  /// Returns the number of operations that changed the connectivity.
-  std::size_t do_round()
+  void do_round()
   {
-    std::size_t changed = 0, split = 0;
+    std::size_t split = 0;
     const auto refine = [&](Sweep_counts& c) {
       return refinement_.sweep(max_unit_length, negligible(split == 0 ? first_refine_share : refine_share), c);
     };
@@ -64,21 +63,28 @@ private:
     // edges of needles are halved many times over: unless what this leaves behind is mended in between, the pieces of
     // one needle fill the surface with others.
     for (std::size_t i = 0; i < max_refine_sweeps; ++i) {
-      changed += run_kernel("simplify", i == 0 ? max_simplify_sweeps : 1, simplify);
-      changed += run_kernel("swap", 1, swap);
-      changed += split = run_kernel("refine", 1, refine);
+      run_kernel("simplify", i == 0 ? max_simplify_sweeps : 1, simplify);
+      run_kernel("swap", 1, swap);
+      split = run_kernel("refine", 1, refine);
       if (split <= negligible(refine_share)) break;
     }
-    changed += run_kernel("simplify", max_simplify_sweeps, simplify);
-    changed += run_kernel("swap", max_swap_sweeps, swap);
+    run_kernel("simplify", max_simplify_sweeps, simplify);
+    run_kernel("swap", max_swap_sweeps, swap);
     run_kernel("relocate", max_relocate_sweeps, relocate);
-    return changed;
   }
 
   /// Whether so few operations are left that they can wait for the next round.
   bool is_negligible(std::size_t operations) const
   {
     return operations <= negligible(negligible_share);
+  }
+
+  /// Whether the last round gained enough in conformity or quality for another one to be worth it.
+  bool is_improving() const
+  {
+    const Mesh_statistics& now = report_.after_round.back();
+    const Mesh_statistics& before = report_.rounds > 1 ? report_.after_round[report_.rounds - 2] : report_.initial;
+    return now.in_range - before.in_range > least_gain || now.mean_quality - before.mean_quality > least_gain;
   }
 
   std::size_t negligible(double share) const { return std::size_t(share * double(surface_.mesh.number_of_vertices())); }
@@ -120,7 +126,8 @@ private:
   static constexpr std::size_t max_relocate_sweeps = 2;
   static constexpr double negligible_share = 0.004;
   static constexpr double refine_share = 0.01;           // a sweep rewrites the mesh, even for a single edge, so
-  static constexpr double first_refine_share = 0.0005;   // a few edges wait for the first sweep of the next round
+  static constexpr double first_refine_share = 0.0015;   // a few edges wait for the first sweep of the next round
+  static constexpr double least_gain = 0.001;            // in the share of edges in range or in mean quality
 
   const Execution& execution_;
   Surface& surface_;

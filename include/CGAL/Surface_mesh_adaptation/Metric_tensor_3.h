@@ -115,8 +115,12 @@ inline Metric_tensor_3 metric_tensor(const Vector_3& values, const Matrix_3& vec
 /// Whether `m` is finite and positive definite.
 inline bool is_positive_definite(const Metric_tensor_3& m)
 {
+  // the pivots of Gaussian elimination; comparisons with NaN fail
   const Matrix_3 a = m.matrix();
-  return a.allFinite() && eigen_decomposition(m).values[0] > 0;
+  const double l1 = a(1, 0) / a(0, 0), l2 = a(2, 0) / a(0, 0);
+  const double p1 = a(1, 1) - l1 * a(1, 0), s = a(2, 1) - l1 * a(2, 0);
+  const double p2 = a(2, 2) - l2 * a(2, 0) - s * s / p1;
+  return a.allFinite() && a(0, 0) > 0 && p1 > 0 && p2 > 0;
 }
 
 /// Matrix logarithm. \pre `m` is positive definite

@@ -30,6 +30,7 @@ struct Anisotropic_metric
   Metric_tensor_3 m;
 
   double length(const Vector_3& e) const { return m.length(e); }
+  double squared_length(const Vector_3& e) const { return m.squared_length(e); }
   const Metric_tensor_3& tensor() const { return m; }
 };
 
@@ -47,6 +48,19 @@ double edge_length(const Metric& a, const Metric& b, const Vector_3& e)
 inline double edge_length(const Isotropic_metric& a, const Isotropic_metric& b, const Vector_3& e)
 {
   return 0.5 * (a.inverse_size + b.inverse_size) * e.norm();
+}
+
+/// `edge_length(a, b, e) < length`, without a root where that is clear.
+template <class Metric>
+bool is_shorter(const Metric& a, const Metric& b, const Vector_3& e, double length)
+{
+  return (a.squared_length(e) < length * length || b.squared_length(e) < length * length) && edge_length(a, b, e) < length;
+}
+
+inline bool is_shorter(const Isotropic_metric& a, const Isotropic_metric& b, const Vector_3& e, double length)
+{
+  const double inverse_size = 0.5 * (a.inverse_size + b.inverse_size);
+  return inverse_size * inverse_size * e.squaredNorm() < length * length;
 }
 
 namespace internal {

@@ -31,7 +31,7 @@ namespace Surface_mesh_adaptation {
 struct Relocation_thresholds
 {
   double good_quality = 0.8;   ///< moves that leave no face below are always accepted
-  double min_move = 0.02;      ///< metric length below which a move is not worth it
+  double min_move = 0.03;      ///< metric length below which a move is not worth it
   double noticeable_move = 0.1; ///< the same in the first sweep: a mesh that is adapted already is left as it is
 };
 
@@ -72,21 +72,39 @@ public:
   }
 
 private:
+  struct Neighbor
+  {
+    Index vertex;
+    Vector_3 point;
+    Vector_3 normal;   ///< zero on curves and at corners, which have several
+    Metric metric;
+  };
+
   /// The faces around a vertex, as the ring of their other corners, gathered once for all trials.
   struct Star
   {
-    Ring<Index> ring;
-    Ring<Vector_3> points;
-    Ring<Vector_3> normals;   ///< zero on curves and at corners, which have several
-    Ring<Metric> metrics;
+    Ring<Neighbor> ring;
     bool is_closed = true;
 
-    /// Calls `f(i, j)` for the pairs of consecutive ring vertices.
+    /// Calls `f(a, b)` for the pairs of consecutive neighbours, until it returns `false`; whether it never did.
+    template <class F>
+    bool for_each_face_while(const F& f) const
+    {
+      const Neighbor* const end = ring.data() + ring.size();
+      const Neighbor* a = is_closed ? end - 1 : ring.data();
+      for (const Neighbor* b = is_closed ? ring.data() : a + 1; b != end; a = b++)
+        if (!f(*a, *b)) return false;
+      return true;
+    }
+
+    /// Calls `f(a, b)` for the pairs of consecutive neighbours.
     template <class F>
     void for_each_face(const F& f) const
     {
-      for (std::size_t i = 0; i + 1 < ring.size(); ++i) f(i, i + 1);
-      if (is_closed) f(ring.size() - 1, std::size_t(0));
+      for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
+        f(a, b);
+        return true;
+      });
     }
   };
 
@@ -157,23 +175,21 @@ private:
   /// The neighbours may move now; the other kernels look again only where the move left something for them.
   CGAL_SMA_FLATTEN void activate_around(Index v, const Star& star, const Placed_vertex<Metric>& moved)
   {
-    const auto both = [&](std::size_t i, Activity kernel) {
-      activate(surface_, v, std::uint8_t(kernel));
-      activate(surface_, star.ring[i], std::uint8_t(kernel));
-    };
-    for (std::size_t i = 0; i < star.ring.size(); ++i) {
-      both(i, Activity::relocate);
-      if (edge_length(moved.metric, star.metrics[i], star.points[i] - moved.point) < min_unit_length)
-        both(i, Activity::simplify);
-    }
-    star.for_each_face([&](std::size_t i, std::size_t j) {
-      const Vector_3 ea = star.points[i] - moved.point, eb = star.points[j] - moved.point;
-      if (internal::squared_shape(moved.metric, star.metrics[i], star.metrics[j], ea, eb, ea.cross(eb))
-            .is_at_least(max_improvable_quality))
-        return;
-      both(i, Activity::swap);
-      both(j, Activity::swap);
+    constexpr std::uint8_t relocate = std::uint8_t(Activity::relocate);
+    std::uint8_t of_all = relocate;
+    star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
+      const Vector_3 ea = a.point - moved.point, eb = b.point - moved.point;
+      std::uint8_t kernels = relocate;
+      if (is_shorter(moved.metric, a.metric, ea, min_unit_length) || is_shorter(moved.metric, b.metric, eb, min_unit_length))
+        kernels |= std::uint8_t(Activity::simplify);
+      if (!internal::squared_shape(moved.metric, a.metric, b.metric, ea, eb, ea.cross(eb))
+             .is_at_least(max_improvable_quality))
+        kernels |= std::uint8_t(Activity::swap);
+      activate(surface_, a.vertex, kernels);
+      if (kernels != relocate || !star.is_closed) activate(surface_, b.vertex, kernels); // else b is the next a
+      of_all |= kernels;
     });
+    activate(surface_, v, of_all);
   }
 
   Star star_of(Index v) const
@@ -181,10 +197,7 @@ private:
     Star s;
     s.is_closed = !mesh_.is_border_vertex(v);
     mesh_.for_each_neighbor(v, [&](Index w) {
-      s.ring.push_back(w);
-      s.points.push_back(surface_.points[w]);
-      s.normals.push_back(surface_.normals[w]);
-      s.metrics.push_back(surface_.metrics[w]);
+      s.ring.push_back({w, surface_.points[w], surface_.normals[w], surface_.metrics[w]});
     });
     return s;
   }
@@ -192,14 +205,14 @@ private:
   CGAL_SMA_FLATTEN static Shape shape(const Star& star, const Placed_vertex<Metric>& v)
   {
     Shape s;
-    star.for_each_face([&](std::size_t i, std::size_t j) {
-      const Vector_3 ea = star.points[i] - v.point, eb = star.points[j] - v.point;
+    star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
+      const Vector_3 ea = a.point - v.point, eb = b.point - v.point;
       const Vector_3 n = ea.cross(eb);
       const double length = n.norm();
-      const double q = internal::squared_shape(v.metric, star.metrics[i], star.metrics[j], ea, eb, n).quality();
+      const double q = internal::squared_shape(v.metric, a.metric, b.metric, ea, eb, n).quality();
       s.worst = (std::min)(s.worst, q);
       double least = length;
-      for (const Vector_3* m : {&v.normal, &star.normals[i], &star.normals[j]})
+      for (const Vector_3* m : {&v.normal, &a.normal, &b.normal})
         if (*m != Vector_3::Zero()) least = (std::min)(least, n.dot(*m));
       s.alignment = (std::min)(s.alignment, length > 0 ? least / length : -1);
     });
@@ -210,29 +223,22 @@ private:
   /// part of a fold: a test without roots and quotients, which nearly all moves pass.
   CGAL_SMA_FLATTEN bool is_good(const Star& star, const Placed_vertex<Metric>& v) const
   {
-    const bool is_closed = star.is_closed;
-    const std::size_t n = star.ring.size();
-    for (std::size_t i = is_closed ? 0 : 1, k = is_closed ? n - 1 : 0; i < n; k = i++) {
-      const Vector_3 ea = star.points[k] - v.point, eb = star.points[i] - v.point;
+    return star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
+      const Vector_3 ea = a.point - v.point, eb = b.point - v.point;
       const Vector_3 normal = ea.cross(eb);
-      if (!internal::squared_shape(v.metric, star.metrics[k], star.metrics[i], ea, eb, normal)
-             .is_at_least(thresholds_.good_quality))
+      if (!internal::squared_shape(v.metric, a.metric, b.metric, ea, eb, normal).is_at_least(thresholds_.good_quality))
         return false;
       const double limit = flat_alignment * flat_alignment * normal.squaredNorm();
       const auto is_flat_at = [&](const Vector_3& m) {
         const double dot = normal.dot(m);
         return dot > 0 && dot * dot >= limit;
       };
-      const bool is_first_smooth = star.normals[k] != Vector_3::Zero();
-      const bool is_second_smooth = star.normals[i] != Vector_3::Zero();
-      if (!is_flat_at(v.normal) || (is_first_smooth && !is_flat_at(star.normals[k])) ||
-          (is_second_smooth && !is_flat_at(star.normals[i])))
+      const bool is_a_smooth = a.normal != Vector_3::Zero(), is_b_smooth = b.normal != Vector_3::Zero();
+      if (!is_flat_at(v.normal) || (is_a_smooth && !is_flat_at(a.normal)) || (is_b_smooth && !is_flat_at(b.normal)))
         return false;
       // with no smooth corner in common, nothing is known of the face behind, which matters unless the edge is a feature
-      if (!is_first_smooth && !is_second_smooth && !mesh_.is_feature(mesh_.halfedge(star.ring[k], star.ring[i])))
-        return false;
-    }
-    return true;
+      return is_a_smooth || is_b_smooth || mesh_.is_feature(mesh_.halfedge(a.vertex, b.vertex));
+    });
   }
 
   /// Whether `moved` makes good faces all around, or else better ones than before.
@@ -268,9 +274,9 @@ private:
     const Vector_3 &p = surface_.points[v], &normal = surface_.normals[v];
     Vector_3 sum = Vector_3::Zero();
     double mass = 0;
-    star.for_each_face([&](std::size_t i, std::size_t j) {
-      const Vector_3 ea = star.points[i] - p, eb = star.points[j] - p;
-      const double m = face_mass(surface_.metrics[v], star.metrics[i], star.metrics[j], ea, eb, ea.cross(eb).dot(normal));
+    star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
+      const Vector_3 ea = a.point - p, eb = b.point - p;
+      const double m = face_mass(surface_.metrics[v], a.metric, b.metric, ea, eb, ea.cross(eb).dot(normal));
       sum += m * (ea + eb);
       mass += m;
     });
@@ -300,9 +306,9 @@ private:
   {
     const Index curve = surface_.locations[v].cell;
     Ring<Index> along;
-    for (Index w : star.ring) {
-      const Index h = mesh_.halfedge(v, w);
-      if (mesh_.curve[h != no_index ? h : mesh_.halfedge(w, v)] == curve) along.push_back(w);
+    for (const Neighbor& n : star.ring) {
+      const Index h = mesh_.halfedge(v, n.vertex);
+      if (mesh_.curve[h != no_index ? h : mesh_.halfedge(n.vertex, v)] == curve) along.push_back(n.vertex);
     }
     if (along.size() != 2) return false;
     const auto arc0 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[along[0]]);
