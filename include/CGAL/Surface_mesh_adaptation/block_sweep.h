@@ -3,7 +3,8 @@
 // How a sweep finds its independent tasks. Vertices are numbered along a curve that fills the surface, so the vertices
 // of a range of ids, a block, are neighbours in space. An operation all of whose vertices lie in one block can touch no
 // operation of another: blocks are worked through in parallel, each in the order of its ids and at the speed of
-// sequential code. What straddles a block border is deferred and then made independent by claims or by colours.
+// sequential code. What straddles a block border is deferred and then made independent by claims, or block by block
+// with blocks of one colour at a time.
 // The blocks depend on the ids alone, never on the number of threads.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_BLOCK_SWEEP_H
@@ -11,6 +12,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -74,6 +76,75 @@ std::vector<Index> sweep_blocks(const Execution& execution, std::size_t number_o
   for (const Sweep_counts& p : partial) counts += p;
   counts.deferred += deferred.size();
   return deferred;
+}
+
+namespace internal {
+
+/// Vertices in increasing order, by the blocks they belong to, and which of these blocks an edge from one of the
+/// vertices leads to.
+struct Border_of_blocks
+{
+  std::vector<std::size_t> first;      ///< of each block in the list of vertices, and the end
+  std::vector<Ring<Index>> adjacent;   ///< to each block; symmetric
+
+  template <class Execution>
+  Border_of_blocks(const Execution& execution, const Mesh_view& mesh, const std::vector<Index>& vertices)
+    : first(number_of_chunks(mesh.number_of_vertices(), block_length) + 1), adjacent(first.size() - 1)
+  {
+    for_each_index(execution, first.size(), [&](std::size_t b) {
+      const auto found = std::lower_bound(vertices.begin(), vertices.end(), Index(b * block_length));
+      first[b] = std::size_t(found - vertices.begin());
+    });
+    for_each_index(execution, adjacent.size(), [&](std::size_t b) {
+      for (std::size_t i = first[b]; i < first[b + 1]; ++i)
+        mesh.for_each_neighbor(vertices[i], [&](Index w) { add(b, w / block_length); });
+    }, 1);
+    for (std::size_t b = 0; b < adjacent.size(); ++b)
+      for (std::size_t i = 0; i < adjacent[b].size(); ++i) add(adjacent[b][i], b);
+  }
+
+  void add(std::size_t b, std::size_t other)
+  {
+    Ring<Index>& list = adjacent[b];
+    if (other != b && std::find(list.begin(), list.end(), Index(other)) == list.end()) list.push_back(Index(other));
+  }
+};
+
+} // namespace internal
+
+/// Calls `visit(v, stands_still, counts, late)` for the `vertices`, which are in increasing order: one block after the
+/// other where an edge leads from one to the other, else in parallel. `stands_still(w)` tells whether no other task
+/// visits `w` meanwhile, which is so for the neighbours of `v`. Adds to `counts`, and returns the concatenated `late`.
+template <class Execution, class Visit>
+std::vector<Index> sweep_block_borders(const Execution& execution, const Mesh_view& mesh,
+                                       const std::vector<Index>& vertices, Sweep_counts& counts, const Visit& visit)
+{
+  if (vertices.empty()) return {};
+  const internal::Border_of_blocks border(execution, mesh, vertices);
+  const std::size_t blocks = border.adjacent.size();
+  const Graph_coloring coloring = graph_coloring(execution, blocks, [&](std::size_t b, const auto& f) {
+    for (Index other : border.adjacent[b]) f(other);
+  });
+  std::vector<Sweep_counts> partial(blocks);
+  std::vector<std::vector<Index>> late(blocks);
+  for (const std::vector<std::uint32_t>& blocks_of_color : color_classes(coloring))
+    for_each_index(execution, blocks_of_color.size(), [&](std::size_t i) {
+      const std::uint32_t b = blocks_of_color[i];
+      const auto stands_still = [&](Index w) {
+        const Index other = w / Index(block_length);
+        return other == b || coloring.color[other] != coloring.color[b];
+      };
+      Sweep_counts local;
+      for (std::size_t k = border.first[b]; k < border.first[b + 1]; ++k)
+        visit(vertices[k], stands_still, local, late[b]);
+      partial[b] = local;
+    }, 1);
+  std::vector<Index> result;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    counts += partial[b];
+    result.insert(result.end(), late[b].begin(), late[b].end());
+  }
+  return result;
 }
 
 } // namespace Surface_mesh_adaptation

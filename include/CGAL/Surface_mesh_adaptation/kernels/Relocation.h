@@ -7,7 +7,7 @@
 // their curve to balance the metric lengths on both sides; corners stay.
 //
 // Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Inside blocks
-// vertices are moved one after the other; those at block borders by colours. Where a face is not flat, the test for folds
+// vertices are moved one after the other; those at block borders likewise, with blocks of one colour at a time. Where a face is not flat, the test for folds
 // also looks at the vertices behind the ring: if these may be moving, the vertex is put off until they stand still.
 // Invariants: connectivity is not touched; no face is turned away from the surface; the worst face around a vertex
 // never falls below both what it was and `good_quality`.
@@ -19,10 +19,10 @@
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
-#include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 namespace CGAL {
@@ -51,6 +51,12 @@ public:
   {
     Sweep_counts local;
     relaxation_ = relaxation_ == over_relaxation ? plain_relaxation : over_relaxation;
+    const auto visit = [&](Index v, const auto& stands_still, Sweep_counts& c, std::vector<Index>& late) {
+      Attempt<std::decay_t<decltype(stands_still)>> attempt{stands_still};
+      ++c.candidates;
+      c.applied += examine(v, attempt);
+      if (attempt.is_put_off) late.push_back(v);
+    };
     const std::vector<Index> deferred = sweep_blocks(
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
@@ -58,13 +64,12 @@ public:
             !is_active(surface_, v, Activity::relocate))
           return;
         if (!block.contains_ring(mesh_, v)) return list.push_back(v);
-        const auto stands_still = [&](Index w) { return block.contains(w); }; // or has had its turn
-        Attempt<decltype(stands_still)> attempt{stands_still};
-        ++c.candidates;
-        c.applied += examine(v, attempt);
-        if (attempt.is_put_off) list.push_back(v);
+        visit(v, [&](Index w) { return block.contains(w); }, c, list); // or has had its turn
       });
-    sweep_border(deferred, local);
+    // what would have to look at vertices that another task moves is left for the end: a few near features and folds
+    const std::vector<Index> late = sweep_block_borders(execution_, mesh_, deferred, local, visit);
+    std::vector<Index> never;
+    for (const Index v : late) visit(v, [](Index) { return true; }, local, never);
     min_move_ = thresholds_.min_move;
     ++local.sweeps;
     counts += local;
@@ -121,45 +126,6 @@ private:
     double worst = 1;      ///< quality
     double alignment = 1;
   };
-
-  void sweep_border(const std::vector<Index>& vertices, Sweep_counts& counts)
-  {
-    if (vertices.empty()) return;
-    position_.assign(mesh_.number_of_vertices(), no_index);
-    for_each_index(execution_, vertices.size(), [&](std::size_t i) { position_[vertices[i]] = Index(i); });
-    const Graph_coloring coloring = graph_coloring(execution_, vertices.size(), [&](std::size_t i, const auto& f) {
-      mesh_.for_each_neighbor(vertices[i], [&](Index w) {
-        if (position_[w] != no_index) f(position_[w]);
-      });
-    });
-    counts.candidates += vertices.size();
-    outcome_.resize(vertices.size());
-    const auto classes = color_classes(coloring);
-    for (std::size_t color = 0; color < classes.size(); ++color) {
-      const auto stands_still = [&](Index w) {
-        return position_[w] == no_index || coloring.color[position_[w]] != color;
-      };
-      for_each_index(execution_, classes[color].size(), [&](std::size_t i) {
-        Attempt<decltype(stands_still)> attempt{stands_still};
-        const bool moved = examine(vertices[classes[color][i]], attempt);
-        outcome_[classes[color][i]] = attempt.is_put_off ? put_off : std::uint8_t(moved);
-      }, heavy_chunk_length);
-    }
-    counts.applied += count_if(execution_, vertices.size(), [&](std::size_t i) { return outcome_[i] == 1; });
-    examine_put_off(vertices, counts);
-  }
-
-  /// What had to look at vertices of its own colour is left for the end, one after the other: a few vertices near
-  /// features and in folds.
-  void examine_put_off(const std::vector<Index>& vertices, Sweep_counts& counts)
-  {
-    const auto stands_still = [](Index) { return true; };
-    const auto late = pack(execution_, vertices.size(), [&](std::size_t i) { return outcome_[i] == put_off; });
-    for (const std::uint32_t i : late) {
-      Attempt<decltype(stands_still)> attempt{stands_still};
-      counts.applied += examine(vertices[i], attempt);
-    }
-  }
 
   /// Tries to move `v`, while those vertices of which `attempt.stands_still` says so do not move.
   template <class StandsStill>
@@ -344,9 +310,6 @@ private:
   Relocation_thresholds thresholds_;
   double min_move_;
   double relaxation_ = plain_relaxation;
-  std::vector<Index> position_;
-  static constexpr std::uint8_t put_off = 2; // an outcome besides moved (1) or not (0)
-  Buffer<std::uint8_t> outcome_;
 };
 
 } // namespace Surface_mesh_adaptation
