@@ -458,7 +458,7 @@ TYPED_TEST(Face_graph, is_read_and_written_back)
 
     TypeParam written = shapes::mesh<TypeParam>(shapes::tetrahedron()); // what was there goes
     SMA::internal::write_connectivity(sequential, imported.mesh, written);
-    SMA::internal::write_points(imported.points, written, get(CGAL::vertex_point, written));
+    SMA::internal::write_points(sequential, imported.points, written, get(CGAL::vertex_point, written));
     ASSERT_TRUE(CGAL::is_valid_polygon_mesh(written));
     const Soup result = shapes::soup(written);
     EXPECT_EQ(result.points, soup.points);

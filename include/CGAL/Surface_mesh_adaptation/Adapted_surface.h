@@ -192,6 +192,14 @@ public:
     return place(best.location, best.point);
   }
 
+  /// Gives back the memory; nothing but the destructor may be called afterwards.
+  template <class Execution>
+  void release(const Execution& execution)
+  {
+    Surface_mesh_adaptation::release(execution, mesh.corner, mesh.twin, mesh.curve, mesh.outgoing, points, normals,
+                                     metrics, locations, origin, active);
+  }
+
   void resize_vertices(std::size_t n)
   {
     points.resize(n);

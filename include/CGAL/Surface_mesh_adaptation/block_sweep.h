@@ -78,71 +78,77 @@ std::vector<Index> sweep_blocks(const Execution& execution, std::size_t number_o
   return deferred;
 }
 
-namespace internal {
-
-/// Vertices in increasing order, by the blocks they belong to, and which of these blocks an edge from one of the
-/// vertices leads to.
-struct Border_of_blocks
+/// Vertices in increasing order, by the blocks they belong to, and a colour for each block, such that no edge leads from
+/// one of the vertices to another block of the same colour.
+class Border_of_blocks
 {
-  std::vector<std::size_t> first;      ///< of each block in the list of vertices, and the end
-  std::vector<Ring<Index>> adjacent;   ///< to each block; symmetric
-
+public:
   template <class Execution>
   Border_of_blocks(const Execution& execution, const Mesh_view& mesh, const std::vector<Index>& vertices)
-    : first(number_of_chunks(mesh.number_of_vertices(), block_length) + 1), adjacent(first.size() - 1)
+    : first_(number_of_chunks(mesh.number_of_vertices(), block_length) + 1)
   {
-    for_each_index(execution, first.size(), [&](std::size_t b) {
+    for_each_index(execution, first_.size(), [&](std::size_t b) {
       const auto found = std::lower_bound(vertices.begin(), vertices.end(), Index(b * block_length));
-      first[b] = std::size_t(found - vertices.begin());
+      first_[b] = std::size_t(found - vertices.begin());
     });
+    std::vector<Ring<Index>> adjacent(first_.size() - 1);
+    const auto add = [&](std::size_t b, std::size_t other) {
+      Ring<Index>& list = adjacent[b];
+      if (other != b && std::find(list.begin(), list.end(), Index(other)) == list.end()) list.push_back(Index(other));
+    };
     for_each_index(execution, adjacent.size(), [&](std::size_t b) {
-      for (std::size_t i = first[b]; i < first[b + 1]; ++i)
+      for (std::size_t i = first_[b]; i < first_[b + 1]; ++i)
         mesh.for_each_neighbor(vertices[i], [&](Index w) { add(b, w / block_length); });
     }, 1);
     for (std::size_t b = 0; b < adjacent.size(); ++b)
       for (std::size_t i = 0; i < adjacent[b].size(); ++i) add(adjacent[b][i], b);
+    coloring_ = first_fit_coloring(adjacent.size(), [&](std::size_t b, const auto& f) {
+      for (const Index other : adjacent[b]) f(other);
+    });
   }
 
-  void add(std::size_t b, std::size_t other)
+  std::size_t number_of_blocks() const { return first_.size() - 1; }
+  std::vector<std::vector<std::uint32_t>> blocks_by_color() const { return color_classes(coloring_); }
+
+  /// The positions of the vertices of a block among the vertices.
+  std::size_t begin(std::size_t block) const { return first_[block]; }
+  std::size_t end(std::size_t block) const { return first_[block + 1]; }
+
+  /// Whether no task visits `w` while another one works through `block`.
+  bool stands_still(Index w, std::size_t block) const
   {
-    Ring<Index>& list = adjacent[b];
-    if (other != b && std::find(list.begin(), list.end(), Index(other)) == list.end()) list.push_back(Index(other));
+    const std::size_t other = w / block_length;
+    return other == block || coloring_.color[other] != coloring_.color[block];
   }
+
+private:
+  std::vector<std::size_t> first_; // of each block, and the end
+  Graph_coloring coloring_;
 };
 
-} // namespace internal
-
-/// Calls `visit(v, stands_still, counts, late)` for the `vertices`, which are in increasing order: one block after the
+/// Calls `visit(v, stands_still, counts, list)` for the `vertices`, which are in increasing order: one block after the
 /// other where an edge leads from one to the other, else in parallel. `stands_still(w)` tells whether no other task
-/// visits `w` meanwhile, which is so for the neighbours of `v`. Adds to `counts`, and returns the concatenated `late`.
+/// visits `w` meanwhile, which is so for the neighbours of `v`. Adds to `counts`, and returns the concatenated lists.
 template <class Execution, class Visit>
 std::vector<Index> sweep_block_borders(const Execution& execution, const Mesh_view& mesh,
                                        const std::vector<Index>& vertices, Sweep_counts& counts, const Visit& visit)
 {
   if (vertices.empty()) return {};
-  const internal::Border_of_blocks border(execution, mesh, vertices);
-  const std::size_t blocks = border.adjacent.size();
-  const Graph_coloring coloring = graph_coloring(execution, blocks, [&](std::size_t b, const auto& f) {
-    for (Index other : border.adjacent[b]) f(other);
-  });
-  std::vector<Sweep_counts> partial(blocks);
-  std::vector<std::vector<Index>> late(blocks);
-  for (const std::vector<std::uint32_t>& blocks_of_color : color_classes(coloring))
-    for_each_index(execution, blocks_of_color.size(), [&](std::size_t i) {
-      const std::uint32_t b = blocks_of_color[i];
-      const auto stands_still = [&](Index w) {
-        const Index other = w / Index(block_length);
-        return other == b || coloring.color[other] != coloring.color[b];
-      };
+  const Border_of_blocks border(execution, mesh, vertices);
+  std::vector<Sweep_counts> partial(border.number_of_blocks());
+  std::vector<std::vector<Index>> lists(border.number_of_blocks());
+  for (const std::vector<std::uint32_t>& blocks : border.blocks_by_color())
+    for_each_index(execution, blocks.size(), [&](std::size_t i) {
+      const std::size_t b = blocks[i];
+      const auto stands_still = [&](Index w) { return border.stands_still(w, b); };
       Sweep_counts local;
-      for (std::size_t k = border.first[b]; k < border.first[b + 1]; ++k)
-        visit(vertices[k], stands_still, local, late[b]);
+      for (std::size_t k = border.begin(b); k < border.end(b); ++k) visit(vertices[k], stands_still, local, lists[b]);
       partial[b] = local;
     }, 1);
   std::vector<Index> result;
-  for (std::size_t b = 0; b < blocks; ++b) {
+  for (std::size_t b = 0; b < lists.size(); ++b) {
     counts += partial[b];
-    result.insert(result.end(), late[b].begin(), late[b].end());
+    result.insert(result.end(), lists[b].begin(), lists[b].end());
   }
   return result;
 }

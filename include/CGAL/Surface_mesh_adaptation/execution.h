@@ -156,7 +156,9 @@ template <class T> constexpr bool is_execution<T, std::void_t<decltype(std::decl
 /// to occupy many threads.
 constexpr std::size_t default_chunk_length = 512;
 /// The same for heavy work (a microsecond an index).
-constexpr std::size_t heavy_chunk_length = 64;
+constexpr std::size_t heavy_chunk_length = 16;
+/// The same for writing or copying (less than a nanosecond an index).
+constexpr std::size_t fill_chunk_length = 16384;
 
 inline std::size_t number_of_chunks(std::size_t n, std::size_t chunk_length)
 {
@@ -181,6 +183,16 @@ void for_each_index(const Execution& execution, std::size_t n, const F& f,
 {
   for_each_chunk(execution, n, chunk_length, [&](std::size_t, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) f(i);
+  });
+}
+
+/// Makes `buffer` a list of `n` times `value`.
+template <class Execution, class Buffer, class T>
+void fill(const Execution& execution, Buffer& buffer, std::size_t n, const T& value)
+{
+  buffer.resize(n);
+  for_each_chunk(execution, n, fill_chunk_length, [&](std::size_t, std::size_t begin, std::size_t end) {
+    std::fill(buffer.begin() + std::ptrdiff_t(begin), buffer.begin() + std::ptrdiff_t(end), value);
   });
 }
 

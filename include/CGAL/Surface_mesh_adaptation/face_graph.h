@@ -308,9 +308,21 @@ void write_connectivity(const Execution&, const Mesh_view& view, FaceGraph& grap
   }
 }
 
-/// Writes points into a property map of the written mesh, of which vertex `i` is the `i`-th.
-template <class Points, class FaceGraph, class VertexPointMap>
-void write_points(const Points& points, FaceGraph& graph, const VertexPointMap& point_map)
+/// Writes points into the point map of a `Surface_mesh`, in which vertex `i` is the `i`-th.
+template <class Execution, class Points, class Point>
+void write_points(const Execution& execution, const Points& points, CGAL::Surface_mesh<Point>&,
+                  typename CGAL::Surface_mesh<Point>::template Property_map<
+                    typename CGAL::Surface_mesh<Point>::Vertex_index, Point> point_map)
+{
+  using V = typename CGAL::Surface_mesh<Point>::Vertex_index;
+  for_each_index(execution, points.size(), [&](std::size_t i) {
+    point_map[V(typename CGAL::Surface_mesh<Point>::size_type(i))] = Point(points[i][0], points[i][1], points[i][2]);
+  });
+}
+
+/// Writes points into any property map of the written mesh, of which vertex `i` is the `i`-th.
+template <class Execution, class Points, class FaceGraph, class VertexPointMap>
+void write_points(const Execution&, const Points& points, FaceGraph& graph, const VertexPointMap& point_map)
 {
   using Point = typename boost::property_traits<VertexPointMap>::value_type;
   std::size_t i = 0;

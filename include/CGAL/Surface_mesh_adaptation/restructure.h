@@ -105,7 +105,7 @@ class Restructuring
 public:
   /// Plans to split the edges marked in `codes` (one code per face; both faces of an edge mark it).
   template <class Execution>
-  Restructuring(const Execution& execution, const Mesh_view& mesh, const std::vector<std::uint8_t>& codes)
+  Restructuring(const Execution& execution, const Mesh_view& mesh, const Buffer<std::uint8_t>& codes)
     : mesh_(mesh), codes_(codes)
   {
     number_of_vertices_ = exclusive_scan(execution, mesh.number_of_faces(), vertex_offset_, [&](std::size_t f) {
@@ -141,15 +141,16 @@ public:
     return label < 3 ? vertex(mesh_.corner[3 * std::size_t(f) + std::size_t(label)]) : midpoint(3 * f + Index(label - 3));
   }
 
-  /// Writes the new connectivity into `result`, of which the memory is reused.
+  /// Writes the new connectivity into `result`, of which the memory is reused; new memory is fetched for
+  /// `expected_vertices`.
   template <class Execution>
-  void build(const Execution& execution, Mesh_view& result) const
+  void build(const Execution& execution, Mesh_view& result, std::size_t expected_vertices = 0) const
   {
-    const std::size_t n = 3 * std::size_t(number_of_faces_);
-    resize_and_forget(result.corner, n);
-    resize_and_forget(result.twin, n);
-    resize_and_forget(result.curve, n);
-    resize_and_forget(result.outgoing, number_of_vertices_);
+    const std::size_t n = 3 * std::size_t(number_of_faces_), expected = 6 * expected_vertices;
+    resize_and_forget(result.corner, n, expected);
+    resize_and_forget(result.twin, n, expected);
+    resize_and_forget(result.curve, n, expected);
+    resize_and_forget(result.outgoing, number_of_vertices_, expected_vertices);
     for_each_index(execution, mesh_.number_of_faces(), [&](std::size_t f) {
       if (!mesh_.is_removed_face(Index(f))) write_children(result, Index(f));
     });
@@ -212,7 +213,7 @@ private:
   }
 
   const Mesh_view& mesh_;
-  const std::vector<std::uint8_t>& codes_;
+  const Buffer<std::uint8_t>& codes_;
   Buffer<Index> vertex_offset_, face_offset_;
   Index number_of_vertices_ = 0, number_of_faces_ = 0;
 };

@@ -149,9 +149,10 @@ Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, cons
     Adapted_surface<Metric, Reconstruction> surface(execution, reference, background);
     report = kernels(execution, surface);
     write_connectivity(execution, surface.mesh, graph);
-    write_points(surface.points, graph, points);
+    write_points(execution, surface.points, graph, points);
     write_constraints(graph, surface, features, np);
     write_metric(graph, surface, np);
+    surface.release(execution);
   };
   with_input_numbers(graph, imported, [&] { with_background(execution, field, imported, reference, adapt); });
   report.execution = Execution::name;

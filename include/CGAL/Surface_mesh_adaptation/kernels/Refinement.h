@@ -20,7 +20,10 @@
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/restructure.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -34,8 +37,18 @@ class Refinement
 public:
   using Metric = typename Surface::Metric;
 
-  Refinement(const Execution& execution, Surface& surface) : execution_(execution), surface_(surface), mesh_(surface.mesh)
+  Refinement(const Execution& execution, Surface& surface)
+    : execution_(execution), surface_(surface), mesh_(surface.mesh), expected_vertices_(expected_number_of_vertices())
   {}
+
+  Refinement(const Refinement&) = delete;
+  Refinement& operator=(const Refinement&) = delete;
+
+  ~Refinement()
+  {
+    release(execution_, points_, normals_, metrics_, locations_, origin_, active_, spare_.corner, spare_.twin,
+            spare_.curve, spare_.outgoing);
+  }
 
   /// Splits every edge longer than `max_length`, once, if there are more than `negligible`. Returns the number of edges
   /// split.
@@ -65,7 +78,7 @@ public:
           return mesh_.is_removed_vertex(Index(v));
         }) == 0)
       return;
-    codes_.assign(mesh_.number_of_faces(), 0);
+    fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
     const Restructuring plan(execution_, mesh_, codes_);
     place_vertices(plan);
     commit(plan);
@@ -74,7 +87,21 @@ public:
 private:
   static constexpr double min_turn = 0.5;  // cosine between a face and its children
   static constexpr double max_half = 0.8;  // of an edge: the middle of a bulging arc lies well within
+  static constexpr double expected_excess = 1.2;   // vertices beyond those of a mesh of equilateral unit triangles
+  static constexpr std::size_t max_growth = 100;   // that is prepared for: metrics may ask for anything
   static constexpr Index max_number_of_faces = std::numeric_limits<std::int32_t>::max() / 3;
+
+  /// The area in the metric over that of a unit triangle: two faces for each vertex.
+  std::size_t expected_number_of_vertices() const
+  {
+    const double sum = reduce(execution_, mesh_.number_of_faces(), 0.0, [&](std::size_t f) {
+      const Index a = mesh_.corner[3 * f], b = mesh_.corner[3 * f + 1], c = mesh_.corner[3 * f + 2];
+      const Vector_3 ab = surface_.points[b] - surface_.points[a], ac = surface_.points[c] - surface_.points[a];
+      return face_mass(surface_.metrics[a], surface_.metrics[b], surface_.metrics[c], ab, ac, ab.cross(ac).norm()) / 3;
+    }, std::plus<double>());
+    const double limit = double(max_growth * mesh_.number_of_vertices());
+    return std::size_t((std::min)(limit, expected_excess * sum / std::sqrt(3.0)));
+  }
 
   template <class F>
   void for_each_face(const F& f, std::size_t chunk_length = default_chunk_length) const
@@ -86,7 +113,7 @@ private:
 
   void mark(double max_length)
   {
-    codes_.assign(mesh_.number_of_faces(), 0);
+    fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
     for_each_face([&](Index f) {
       for (Index i = 0; i < 3; ++i)
         if (surface_.length(3 * f + i) > max_length) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
@@ -107,12 +134,12 @@ private:
   void place_vertices(const Restructuring& plan)
   {
     const std::size_t n = plan.number_of_vertices();
-    resize_and_forget(points_, n);
-    resize_and_forget(normals_, n);
-    resize_and_forget(metrics_, n);
-    resize_and_forget(locations_, n);
-    resize_and_forget(origin_, n);
-    resize_and_forget(active_, n);
+    resize_and_forget(points_, n, expected_vertices_);
+    resize_and_forget(normals_, n, expected_vertices_);
+    resize_and_forget(metrics_, n, expected_vertices_);
+    resize_and_forget(locations_, n, expected_vertices_);
+    resize_and_forget(origin_, n, expected_vertices_);
+    resize_and_forget(active_, n, expected_vertices_);
     for_each_face([&](Index f) {
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
         const Index v = mesh_.corner[h];
@@ -166,7 +193,7 @@ private:
   /// Unmarks the edges of faces with a child that turns away from its parent; whether there was one.
   bool take_back_marks_of_bad_faces(const Restructuring& plan)
   {
-    bad_.assign(mesh_.number_of_faces(), 0);
+    fill(execution_, bad_, mesh_.number_of_faces(), std::uint8_t(0));
     for_each_face([&](Index f) {
       bad_[f] = codes_[f] != 0 && !(are_halves_shorter(plan, f) && are_children_upright(plan, f, codes_[f]));
     });
@@ -183,9 +210,10 @@ private:
   /// Of the two ways to cut the quadrilateral that two marks leave, takes the one with the better worst face.
   void choose_diagonals(const Restructuring& plan)
   {
-    chosen_ = codes_; // the plan goes on reading the codes of neighbours
-    for_each_face([&](Index f) {
-      const std::uint8_t marks = codes_[f];
+    resize_and_forget(chosen_, codes_.size()); // the plan goes on reading the codes of neighbours
+    for_each_index(execution_, codes_.size(), [&](std::size_t i) {
+      const Index f = Index(i);
+      const std::uint8_t marks = chosen_[f] = codes_[f];
       if (marks != 3 && marks != 5 && marks != 6) return;
       const std::uint8_t other = std::uint8_t(marks | 8);
       if (worst_child(plan, f, other) > worst_child(plan, f, marks) && are_children_upright(plan, f, other))
@@ -229,7 +257,7 @@ private:
 
   void commit(const Restructuring& plan)
   {
-    plan.build(execution_, spare_);
+    plan.build(execution_, spare_, expected_vertices_);
     std::swap(mesh_, spare_);
     surface_.points.swap(points_);
     surface_.normals.swap(normals_);
@@ -242,7 +270,8 @@ private:
   const Execution& execution_;
   Surface& surface_;
   Mesh_view& mesh_;
-  std::vector<std::uint8_t> codes_, chosen_, bad_;
+  std::size_t expected_vertices_;
+  Buffer<std::uint8_t> codes_, chosen_, bad_;
   // the other half of a double buffer: swapped with the surface by `commit`
   Mesh_view spare_;
   Buffer<Vector_3> points_, normals_;

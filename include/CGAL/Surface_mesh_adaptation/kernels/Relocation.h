@@ -6,9 +6,9 @@
 // over-relaxed, with a step that is halved until no face is made worse than allowed. Curve vertices move along
 // their curve to balance the metric lengths on both sides; corners stay.
 //
-// Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Inside blocks
-// vertices are moved one after the other; those at block borders likewise, with blocks of one colour at a time. Where a face is not flat, the test for folds
-// also looks at the vertices behind the ring: if these may be moving, the vertex is put off until they stand still.
+// Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Where a face is
+// not flat, the test for folds also looks at the vertices behind the ring: if these may be moving, the vertex is put off
+// until they stand still.
 // Invariants: connectivity is not touched; no face is turned away from the surface; the worst face around a vertex
 // never falls below both what it was and `good_quality`.
 

@@ -114,7 +114,7 @@ private:
     for_each_index(execution_, vertices.size(), [&](std::size_t i) {
       if (proposals_[i].h == no_index) deactivate(surface_, vertices[i], Activity::simplify);
     });
-    reservations_.resize(mesh_.number_of_vertices());
+    reservations_.resize(execution_, mesh_.number_of_vertices());
     const auto winners = independent_set(
       execution_, valid.size(), reservations_,
       [&](std::size_t i) {
@@ -129,10 +129,11 @@ private:
     for_each_index(execution_, winners.size(), [&](std::size_t i) { apply(proposals_[valid[winners[i]]]); });
     counts.applied += winners.size();
 
-    std::vector<Index> losers;
-    for (std::uint32_t i : valid)
-      if (!mesh_.is_removed_vertex(vertices[i])) losers.push_back(vertices[i]);
-    vertices.swap(losers);
+    vertices = gather<Index>(execution_, valid.size(), default_chunk_length,
+                             [&](std::size_t begin, std::size_t end, std::vector<Index>& losers) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (!mesh_.is_removed_vertex(vertices[valid[i]])) losers.push_back(vertices[valid[i]]);
+    });
   }
 
   bool may_slide_along(Index s, Index h) const

@@ -41,7 +41,7 @@ public:
   std::size_t sweep(Sweep_counts& counts)
   {
     Sweep_counts local;
-    touched_.assign(mesh_.number_of_vertices(), 0);
+    fill(execution_, touched_, mesh_.number_of_vertices(), std::uint8_t(0));
     std::vector<Index> deferred = sweep_blocks(
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
@@ -152,7 +152,7 @@ private:
     gains_.resize(edges.size());
     for_each_index(execution_, edges.size(), [&](std::size_t i) { gains_[i] = gain(edges[i]); }, heavy_chunk_length);
     const auto valid = pack(execution_, edges.size(), [&](std::size_t i) { return gains_[i] > 0; });
-    reservations_.resize(mesh_.number_of_vertices());
+    reservations_.resize(execution_, mesh_.number_of_vertices());
     const auto winners = independent_set(
       execution_, valid.size(), reservations_,
       [&](std::size_t i) {
@@ -163,13 +163,17 @@ private:
         const Index h = edges[valid[i]];
         for (Index v : {mesh_.source(h), mesh_.target(h), mesh_.apex(h), mesh_.apex(mesh_.twin[h])}) claim(v);
       });
-    std::vector<Index> remaining;
-    for (std::uint32_t i : valid) remaining.push_back(mesh_.source(edges[i]));
+    vertices.clear();
+    if (winners.size() < valid.size())
+      vertices = gather<Index>(execution_, valid.size(), default_chunk_length,
+                               [&](std::size_t begin, std::size_t end, std::vector<Index>& remaining) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Index v = mesh_.source(edges[valid[i]]);
+          if (i == 0 || v != mesh_.source(edges[valid[i - 1]])) remaining.push_back(v);
+        }
+      });
     for_each_index(execution_, winners.size(), [&](std::size_t i) { apply(edges[valid[winners[i]]]); });
     counts.applied += winners.size();
-    remaining.erase(std::unique(remaining.begin(), remaining.end()), remaining.end());
-    vertices.swap(remaining);
-    if (winners.size() == valid.size()) vertices.clear();
   }
 
   /// Change of the sum of squared deviations from the ideal degrees.
@@ -213,7 +217,7 @@ private:
   Surface& surface_;
   Mesh_view& mesh_;
   Swapping_thresholds thresholds_;
-  std::vector<std::uint8_t> touched_; // in this sweep; `active` stays as it was, for other blocks read it
+  Buffer<std::uint8_t> touched_; // in this sweep; `active` stays as it was, for other blocks read it
   std::vector<double> gains_;
   Reservations reservations_;
 };

@@ -100,6 +100,25 @@ Graph_coloring graph_coloring(const Execution& execution, std::size_t n, const N
   return result;
 }
 
+/// The same in the order of the ids and on the calling thread: for graphs of a few thousand nodes, where barriers would
+/// cost more.
+template <class Neighbors>
+Graph_coloring first_fit_coloring(std::size_t n, const Neighbors& neighbors)
+{
+  Graph_coloring result;
+  result.rounds = 1;
+  result.color.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    internal::Color_set used;
+    neighbors(i, [&](std::size_t j) {
+      if (j < i) used.insert(result.color[j]);
+    });
+    result.color.push_back(used.first_missing());
+    result.number_of_colors = (std::max)(result.number_of_colors, result.color.back() + 1);
+  }
+  return result;
+}
+
 /// The nodes of each colour, in increasing order.
 inline std::vector<std::vector<std::uint32_t>> color_classes(const Graph_coloring& coloring)
 {

@@ -43,14 +43,14 @@ inline std::uint64_t task_priority(std::uint32_t bucket, std::uint32_t id, std::
 class Reservations
 {
 public:
-  explicit Reservations(std::size_t number_of_resources = 0) { resize(number_of_resources); }
-
-  void resize(std::size_t number_of_resources)
+  /// Makes room for that many, all free. \pre no slot is held
+  template <class Execution>
+  void resize(const Execution& execution, std::size_t number_of_resources)
   {
     if (number_of_resources <= size_) return;
     size_ = number_of_resources;
-    slots_ = std::make_unique<std::atomic<std::uint64_t>[]>(size_);
-    for (std::size_t i = 0; i < size_; ++i) release(i);
+    slots_.reset(new std::atomic<std::uint64_t>[size_]); // not cleared twice, and by the threads that will use it
+    for_each_index(execution, size_, [&](std::size_t i) { release(i); }, fill_chunk_length);
   }
 
   void reserve(std::size_t resource, std::uint64_t priority)
@@ -98,7 +98,8 @@ std::vector<std::uint32_t> maximal_independent_set(const Execution& execution, s
                                                    std::size_t number_of_resources, const Priority& priority,
                                                    const Resources& resources)
 {
-  Reservations reservations(number_of_resources);
+  Reservations reservations;
+  reservations.resize(execution, number_of_resources);
   std::vector<std::uint8_t> is_taken(number_of_resources, 0), is_member(n, 0);
   std::vector<std::uint32_t> candidates = pack(execution, n, [](std::size_t) { return true; });
   while (!candidates.empty()) {
