@@ -12,8 +12,10 @@
 #include <CGAL/Surface_mesh_adaptation/kernels/Swapping.h>
 #include <CGAL/Surface_mesh_adaptation/mesh_statistics.h>
 
+#include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace CGAL {
@@ -34,6 +36,8 @@ public:
   {
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
+    find_work();
+    if (report_.initial.in_range > adapted_share) relocation_.expect_adapted();
     for (round_ = 0; round_ < rounds && !report_.stopped; ++round_) {
       visitor_.round_begins(round_, rounds);
       do_round();
@@ -49,6 +53,23 @@ public:
   }
 
 private:
+  /// Every vertex may have to move, but collapses and swaps need a short edge or a bad face: on a mesh that is adapted
+  /// already there are few.
+  void find_work()
+  {
+    const Mesh_view& mesh = surface_.mesh;
+    fill(execution_, surface_.active, mesh.number_of_vertices(), std::uint8_t(Activity::relocate));
+    for_each_index(execution_, mesh.number_of_faces(), [&](std::size_t f) {
+      const std::array<Index, 3> v{mesh.corner[3 * f], mesh.corner[3 * f + 1], mesh.corner[3 * f + 2]};
+      std::uint8_t kernels = 0;
+      if (!surface_.has_quality(v[0], v[1], v[2], max_improvable_quality)) kernels |= std::uint8_t(Activity::swap);
+      for (std::size_t i = 0; i < 3; ++i)
+        if (surface_.is_shorter(v[i], v[(i + 1) % 3], min_unit_length)) kernels |= std::uint8_t(Activity::simplify);
+      if (kernels != 0)
+        for (const Index corner : v) activate(surface_, corner, kernels);
+    });
+  }
+
   void do_round()
   {
     std::size_t split = 0;
@@ -127,6 +148,7 @@ private:
   static constexpr double negligible_share = 0.004;
   static constexpr double refine_share = 0.01;           // a sweep rewrites the mesh, even for a single edge, so
   static constexpr double first_refine_share = 0.0015;   // a few edges wait for the first sweep of the next round
+  static constexpr double adapted_share = 0.95;          // of the edges in range
   static constexpr double least_gain = 0.001;            // in the share of edges in range or in mean quality
 
   const Execution& execution_;

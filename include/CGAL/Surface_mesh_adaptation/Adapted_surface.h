@@ -63,8 +63,8 @@ public:
       set(Index(v), place(l, {reference_->points[v], is_smooth ? reference_->normals.at(mesh.outgoing[v])
                                                               : Vector_3(Vector_3::Zero())}));
       origin[v] = Index(v);
+      active[v] = 0xff;
     });
-    std::fill(active.begin(), active.end(), std::uint8_t(0xff));
   }
 
   const Reference& reference() const { return *reference_; }
@@ -92,6 +92,12 @@ public:
   }
 
   double length(Index h) const { return length(mesh.source(h), mesh.target(h)); }
+
+  /// `length(a, b) < l`, up to rounding.
+  bool is_shorter(Index a, Index b, double l) const
+  {
+    return Surface_mesh_adaptation::is_shorter(metrics[a], metrics[b], points[b] - points[a], l);
+  }
 
   CGAL_SMA_FLATTEN double quality(Index a, Index b, Index c) const { return squared_shape(a, b, c).quality(); }
 

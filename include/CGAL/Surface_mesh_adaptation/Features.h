@@ -88,7 +88,7 @@ class Feature_detection
 public:
   Feature_detection(Mesh_view& mesh, const std::vector<Vector_3>& points, const Feature_parameters& parameters)
     : mesh_(mesh), points_(points), parameters_(parameters)
-    , is_feature_(mesh.number_of_halfedges(), 0)
+    , cosine_of_ridge_(std::cos(parameters.ridge_angle * M_PI / 180)), is_feature_(mesh.number_of_halfedges(), 0)
   {}
 
   template <class Execution>
@@ -125,7 +125,7 @@ private:
   bool is_ridge(Index h) const
   {
     const Vector_3 a = normal(Mesh_view::face(h)), b = normal(Mesh_view::face(mesh_.twin[h]));
-    return a.dot(b) < std::cos(parameters_.ridge_angle * M_PI / 180) * a.norm() * b.norm();
+    return a.dot(b) < cosine_of_ridge_ * std::sqrt(a.squaredNorm() * b.squaredNorm());
   }
 
   template <class Execution>
@@ -305,6 +305,7 @@ private:
   Mesh_view& mesh_;
   const std::vector<Vector_3>& points_;
   const Feature_parameters& parameters_;
+  double cosine_of_ridge_;
   std::vector<std::uint8_t> is_feature_;
   std::vector<Index> feature_vertices_;
   Features features_;

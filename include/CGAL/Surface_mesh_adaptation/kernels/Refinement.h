@@ -17,6 +17,7 @@
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/fill_holes.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/restructure.h>
 
@@ -50,7 +51,7 @@ public:
             spare_.curve, spare_.outgoing);
   }
 
-  /// Splits every edge longer than `max_length`, once, if there are more than `negligible`. Returns the number of edges
+  /// Splits every edge of length `max_length` or more, once, if there are more than `negligible`. Returns the number of edges
   /// split.
   std::size_t sweep(double max_length, std::size_t negligible, Sweep_counts& counts)
   {
@@ -74,19 +75,31 @@ public:
   /// Closes the holes of removed elements, if there are any.
   void compact()
   {
-    if (count_if(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
-          return mesh_.is_removed_vertex(Index(v));
-        }) == 0)
-      return;
-    fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
-    const Restructuring plan(execution_, mesh_, codes_);
-    place_vertices(plan);
-    commit(plan);
+    const auto vertices = pack(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
+      return mesh_.is_removed_vertex(Index(v));
+    });
+    if (vertices.empty()) return;
+    if (double(vertices.size()) > max_share_of_holes * double(mesh_.number_of_vertices())) {
+      fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
+      const Restructuring plan(execution_, mesh_, codes_);
+      place_vertices(plan);
+      return commit(plan);
+    }
+    const auto faces = pack(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
+      return mesh_.is_removed_face(Index(f));
+    });
+    fill_holes(mesh_, vertices, faces, [&](Index from, Index to) {
+      surface_.set(to, surface_.vertex(from));
+      surface_.origin[to] = surface_.origin[from];
+      surface_.active[to] = surface_.active[from];
+    });
+    surface_.resize_vertices(mesh_.number_of_vertices());
   }
 
 private:
   static constexpr double min_turn = 0.5;  // cosine between a face and its children
   static constexpr double max_half = 0.8;  // of an edge: the middle of a bulging arc lies well within
+  static constexpr double max_share_of_holes = 0.01; // that are filled in series
   static constexpr double expected_excess = 1.2;   // vertices beyond those of a mesh of equilateral unit triangles
   static constexpr std::size_t max_growth = 100;   // that is prepared for: metrics may ask for anything
   static constexpr Index max_number_of_faces = std::numeric_limits<std::int32_t>::max() / 3;
@@ -116,7 +129,7 @@ private:
     fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
     for_each_face([&](Index f) {
       for (Index i = 0; i < 3; ++i)
-        if (surface_.length(3 * f + i) > max_length) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
+        if (!surface_.is_shorter(mesh_.source(3 * f + i), mesh_.target(3 * f + i), max_length)) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
     });
   }
 

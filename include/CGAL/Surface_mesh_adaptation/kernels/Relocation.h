@@ -32,7 +32,7 @@ struct Relocation_thresholds
 {
   double good_quality = 0.8;   ///< moves that leave no face below are always accepted
   double min_move = 0.03;      ///< metric length below which a move is not worth it
-  double noticeable_move = 0.1; ///< the same in the first sweep: a mesh that is adapted already is left as it is
+  double noticeable_move = 0.2; ///< the same in the first sweep over a mesh that is adapted already
 };
 
 template <class Surface, class Execution>
@@ -43,8 +43,11 @@ public:
 
   Relocation(const Execution& execution, Surface& surface, const Relocation_thresholds& thresholds)
     : execution_(execution), surface_(surface), mesh_(surface.mesh), thresholds_(thresholds)
-    , min_move_(thresholds.noticeable_move)
+    , min_move_(thresholds.min_move)
   {}
+
+  /// Leaves a mesh that is adapted already as it is, but for noticeable moves and what follows from them.
+  void expect_adapted() { min_move_ = thresholds_.noticeable_move; }
 
   /// Examines every active vertex once. Returns the number of vertices moved.
   std::size_t sweep(Sweep_counts& counts)
