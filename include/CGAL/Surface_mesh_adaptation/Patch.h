@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the surface over a triangle is made from, and what is asked of it.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_PATCH_H
+#define CGAL_SURFACE_MESH_ADAPTATION_PATCH_H
+
+#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+
+#include <array>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+struct Surface_point
+{
+  Vector_3 position;
+  Vector_3 normal;  ///< unit
+};
+
+/// What a patch may depend on: the corners of its own face and the marks of its edges. Edge `i` joins corners `i`
+/// and `i + 1`.
+struct Patch
+{
+  std::array<Vector_3, 3> points;
+  std::array<Vector_3, 3> normals;                  ///< unit, of the smooth sector that the face belongs to
+  std::array<bool, 3> is_feature{};                 ///< whether the edge lies on a feature curve
+  std::array<std::array<Vector_3, 2>, 3> tangents;  ///< unit tangents of that curve, of either sign, at corner `i` and
+                                                    ///< at corner `i + 1`
+  /// Derivative of the unit normal along the surface, `(I - n n^T) / r` on a sphere of radius `r` with outward
+  /// normals; zero where it is not known.
+  std::array<Metric_tensor_3, 3> shape_operators{zero_tensor, zero_tensor, zero_tensor};
+  std::array<bool, 3> has_shape_operator{};         ///< whether the shape operator of the corner is known
+
+private:
+  static inline const Metric_tensor_3 zero_tensor{0, 0, 0, 0, 0, 0};
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_PATCH_H
