@@ -21,8 +21,8 @@ public:
   /// input.
   static Surface_point evaluate(const Patch& patch, double u, double v);
 
-  /// The point at parameter `t` of a feature curve from `a` to `b` with unit tangents `ta` and `tb` there, of either sign: the same
-  /// points as those of an edge of a patch with these tangents.
+  /// The point at parameter `t` of a feature curve from `a` to `b` with unit tangents `ta` and `tb` there, of either
+  /// sign: the same points as those of an edge of a patch with these tangents.
   static Vector_3 evaluate_curve(const Vector_3& a, const Vector_3& b, const Vector_3& ta, const Vector_3& tb,
                                  double t);
 };

@@ -174,8 +174,11 @@ private:
   void set_twists(std::size_t i, const Tangent_planes& s, const Vector_3& ac, const Vector_3& bc)
   {
     const Vector_3 d0 = 0.75 * ac - 0.375 * s.w[0], d3 = 0.75 * bc + 0.375 * s.w[2];
-    const double l0 = d0.dot(s.w[0]) / (3 * s.w[0].squaredNorm()), l1 = d3.dot(s.w[2]) / (3 * s.w[2].squaredNorm()),
-                 m0 = d0.dot(s.a[0]) / (3 * s.a[0].squaredNorm()), m1 = d3.dot(s.a[2]) / (3 * s.a[2].squaredNorm());
+    // a third of each coefficient; two of them for one division
+    const double w0 = s.w[0].squaredNorm(), w2 = s.w[2].squaredNorm(), w = 1 / (3 * w0 * w2),
+                 a0 = s.a[0].squaredNorm(), a2 = s.a[2].squaredNorm(), a = 1 / (3 * a0 * a2),
+                 l0 = d0.dot(s.w[0]) * (w2 * w), l1 = d3.dot(s.w[2]) * (w0 * w),
+                 m0 = d0.dot(s.a[0]) * (a2 * a), m1 = d3.dot(s.a[2]) * (a0 * a);
     const Vector_3 &e1 = edges_[i][0], &e2 = edges_[i][1], &e3 = edges_[i][2];
     twists_[i][0] = (e1 + e2) / 2 + (2 * l0 * s.w[1] + l1 * s.w[0]) + (2 * m0 * s.a[1] + m1 * s.a[0]);
     twists_[(i + 1) % 3][1] = (e2 + e3) / 2 + (l0 * s.w[2] + 2 * l1 * s.w[1]) + (m0 * s.a[2] + 2 * m1 * s.a[1]);
@@ -257,7 +260,7 @@ private:
   Vector_3 unit_normal(const Vector_3& direction, double u, double v) const
   {
     const double length = direction.norm();
-    if (length > 0) return direction / length;
+    if (length > 0) return 1 / length * direction;
     return ((1 - u - v) * normals_[0] + u * normals_[1] + v * normals_[2]).normalized();
   }
 

@@ -26,10 +26,11 @@ struct Cubic_handles
 inline Cubic_handles smooth_handles(const Vector_3& e, const Vector_3& na, const Vector_3& nb)
 {
   const double length2 = e.squaredNorm(), x = na.dot(e), y = nb.dot(e), c = na.dot(nb);
+  const Vector_3 third = (1.0 / 3) * e;
   // 45 degrees out of the tangent planes, or normals 120 degrees apart
-  if (!(2 * x * x < length2 && 2 * y * y < length2 && c > -0.5)) return {e / 3, -e / 3, true};
+  if (!(2 * x * x < length2 && 2 * y * y < length2 && c > -0.5)) return {third, -third, true};
   const double k = 1 / (3 * (4 - c * c)), p = k * (2 * x + c * y), q = k * (2 * y + c * x);
-  return {(e / 3 - 2 * p * na) + q * nb, (2 * q * nb - e / 3) - p * na, false};
+  return {(third - 2 * p * na) + q * nb, (2 * q * nb - third) - p * na, false};
 }
 
 /// The handle of a curve with the unit tangent `tangent`, of either sign, at the start of `e`: that of a circle where
