@@ -341,7 +341,7 @@ template <class Reference>
 Patches patches(Reference& surface, bool orthogonalize)
 {
   if (orthogonalize)
-    SMA::orthogonalize_normals(sequential, surface.mesh, surface.points, surface.features, surface.normals);
+    SMA::orthogonalize_normals(sequential, surface.mesh, surface.features, surface.normals);
   Patches result{surface.mesh, {}};
   for (Index f = 0; f < surface.mesh.number_of_faces(); ++f) result.of_face.push_back(surface.patch(f));
   return result;
@@ -496,6 +496,52 @@ TEST(Feature_curve, is_of_fourth_order_with_exact_tangents_and_of_third_with_thr
 {
   EXPECT_GT(std::log2(curve_error(40, 0) / curve_error(160, 0)) / 2, 3.6);
   EXPECT_GT(std::log2(curve_error(40, 1) / curve_error(160, 1)) / 2, 2.7);
+}
+
+/// Largest distance, along z, of the curves of the reference surface to the boundary of the graph that it is made from.
+double boundary_error(int level)
+{
+  const analytic::Graph graph;
+  const Soup soup = analytic::mesh(graph, level);
+  const Surface surface(sequential, shapes::view(soup), soup.points, {});
+  EXPECT_EQ(surface.features.curves.size(), 4u);
+  double worst = 0;
+  for (Index id = 0; id < surface.features.curves.size(); ++id)
+    for (int i = 1; i < 2000; ++i) {
+      const double s = surface.features.curves[id].length() * i / 2000;
+      const Vector_3 p = surface.evaluate(surface.on_curve(id, s)).position;
+      worst = (std::max)(worst, std::abs(p[2] - graph.jet(p[0], p[1]).f));
+    }
+  return worst;
+}
+
+TEST(Feature_curve, is_of_third_order_up_to_the_corners)
+{
+  EXPECT_GT(std::log2(boundary_error(2) / boundary_error(4)) / 2, 2.7);
+}
+
+TEST(Feature_curve, is_the_edge_of_both_patches_next_to_it)
+{
+  const Soup soup = shapes::capped_cylinder(20, 3, 1);
+  Mesh_view mesh = shapes::view(soup);
+  SMA::Feature_parameters parameters;
+  parameters.vertex_is_constrained.assign(soup.points.size(), 0);
+  parameters.vertex_is_constrained[3] = 1; // a curve from a corner back to it
+  const Surface surface(sequential, mesh, soup.points, parameters);
+  std::size_t edges = 0;
+  for (const SMA::Feature_curve& c : surface.features.curves)
+    for (std::size_t i = 0; i + 1 < c.vertices.size(); ++i) {
+      const Index h = surface.mesh.halfedge(c.vertices[i], c.vertices[i + 1]), t = surface.mesh.twin[h];
+      const Vector_3 middle = Gregory_reconstruction::evaluate_curve(
+        surface.points[c.vertices[i]], surface.points[c.vertices[i + 1]], c.tangents[i], c.tangents[i + 1], 0.5);
+      const Gregory_patch_3 left(surface.patch(h / 3)), right(surface.patch(t / 3));
+      EXPECT_EQ(left.curve(h % 3), Curve::feature);
+      for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(left.control_point(h % 3, k), right.control_point(t % 3, 4 - k));
+      const auto a = on_edge(h % 3, 0.5);
+      EXPECT_LT((left.point(a[0], a[1]) - middle).norm(), 1e-15);
+      ++edges;
+    }
+  EXPECT_EQ(edges, 40u);
 }
 
 // Fallbacks

@@ -75,9 +75,8 @@ public:
       const Index curve = mesh.curve[h + i];
       p.is_feature[i] = curve != no_curve;
       if (!p.is_feature[i]) continue;
-      const Vector_3 chord = p.points[(i + 1) % 3] - p.points[i];
-      p.tangents[i][0] = features.tangent(curve, mesh.corner[h + i], chord);
-      p.tangents[i][1] = features.tangent(curve, mesh.corner[h + (i + 1) % 3], chord);
+      const Index v = mesh.corner[h + i], w = mesh.corner[h + (i + 1) % 3];
+      p.tangents[i] = {features.tangent(curve, v, w), features.tangent(curve, w, v)};
     }
     return p;
   }

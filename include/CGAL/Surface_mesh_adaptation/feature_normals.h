@@ -11,7 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
 
-#include <vector>
+#include <cstddef>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -33,12 +33,9 @@ inline Vector_3 orthogonalized_normal(const Vector_3& normal, const Vector_3& s,
 /// tangent planes common to the patches of the sector require. Writes only normals of feature vertices.
 /// \pre `features` are those of `mesh`, and `normals` one for each of its sectors
 template <class Execution>
-void orthogonalize_normals(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
-                           const Features& features, Corner_normals& normals)
+void orthogonalize_normals(const Execution& execution, const Mesh_view& mesh, const Features& features,
+                           Corner_normals& normals)
 {
-  const auto tangent = [&](Index h, Index v) {
-    return features.tangent(mesh.curve[h], v, points[mesh.target(h)] - points[mesh.source(h)]);
-  };
   for_each_index(execution, mesh.number_of_vertices(), [&](std::size_t v) {
     if (features.vertex_class[v] == Vertex_class::smooth) return;
     internal::for_each_sector(mesh, Index(v), [&](Index first, std::size_t n) {
@@ -46,7 +43,9 @@ void orthogonalize_normals(const Execution& execution, const Mesh_view& mesh, co
       Index last = first;
       for (std::size_t i = 1; i < n; ++i) last = mesh.rotated_ccw(last);
       Vector_3& normal = normals.normals[normals.of_corner[first]];
-      normal = orthogonalized_normal(normal, tangent(first, Index(v)), tangent(Mesh_view::previous(last), Index(v)));
+      last = Mesh_view::previous(last); // towards the vertex, along the other curve
+      normal = orthogonalized_normal(normal, features.tangent(mesh.curve[first], Index(v), mesh.target(first)),
+                                     features.tangent(mesh.curve[last], Index(v), mesh.source(last)));
     });
   });
 }
