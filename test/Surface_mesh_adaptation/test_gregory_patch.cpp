@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_adaptation/Gregory_patch_3.h>
 #include <CGAL/Surface_mesh_adaptation/Reference_surface.h>
 #include <CGAL/Surface_mesh_adaptation/feature_normals.h>
+#include <CGAL/Surface_mesh_adaptation/patch_fallbacks.h>
 #include <CGAL/Surface_mesh_adaptation/surface_reconstruction.h>
 
 #include <gtest/gtest.h>
@@ -579,6 +580,26 @@ TEST(Gregory_patch, keeps_an_edge_straight_where_the_normals_say_nothing)
     EXPECT_LT((g.point(0.25, 0) - quarter).norm(), 1e-15);
     EXPECT_TRUE(is_finite(p));
   }
+}
+
+TEST(Patch_fallbacks, are_counted)
+{
+  Patches patches = tilted_torus(0.1);
+  const auto count = [&] {
+    return SMA::count_patch_fallbacks(sequential, patches.of_face.size(),
+                                      [&](std::size_t f) -> const Patch& { return patches.of_face[f]; });
+  };
+  const SMA::Patch_fallbacks before = count();
+  EXPECT_EQ(before.straight_sides, 0u);
+  for (const Index h : {0u, 300u, 900u}) { // a normal along an edge
+    ASSERT_TRUE(is_gregory(patches.of_face[h / 3]));
+    Patch& p = patches.of_face[h / 3];
+    p.normals[0] = (p.points[1] - p.points[0]).cross(p.normals[0]).cross(p.normals[0]).normalized();
+  }
+  const SMA::Patch_fallbacks after = count();
+  EXPECT_EQ(after.cubic_interiors, before.cubic_interiors + 3);
+  EXPECT_GE(after.straight_sides, 3u);
+  EXPECT_LE(after.straight_sides, 6u);
 }
 
 TEST(Gregory_patch, is_cubic_inside_where_a_normal_is_far_off_the_facet)
