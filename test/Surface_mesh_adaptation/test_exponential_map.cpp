@@ -38,8 +38,7 @@ struct Rings
   Mesh_view mesh;
   double h;
 
-  explicit Rings(int level)
-    : soup(analytic::mesh(surface, level)), mesh(shapes::view(soup)), h(soup.mean_edge_length())
+  explicit Rings(int level) : soup(analytic::mesh(surface, level)), mesh(shapes::view(soup)), h(soup.mean_edge_length())
   {}
 
   One_ring ring(Index v) const
@@ -74,8 +73,9 @@ Vector_3 random_tangent_vector(const One_ring& ring, double r, Random& random)
 template <class Surface>
 Vector_3 point_at(const Rings<Surface>& rings, const Exponential_map_result& x)
 {
-  return SMA::Gregory_reconstruction::evaluate(
-           analytic::patch(rings.surface, rings.soup, rings.soup.triangles[x.face]), x.u, x.v).position;
+  return SMA::Gregory_reconstruction::evaluate(analytic::patch(rings.surface, rings.soup, rings.soup.triangles[x.face]),
+                                               x.u, x.v)
+    .position;
 }
 
 // One-rings
@@ -170,7 +170,8 @@ Vector_3 shooting(const One_ring& ring, const Vector_3& t)
 TYPED_TEST(Exponential_map, by_lifting_with_kept_length_is_of_third_order)
 {
   const double k = TypeParam().scale();
-  const Map_errors coarse = map_errors<TypeParam>(2, 0.9, length_kept), fine = map_errors<TypeParam>(4, 0.9, length_kept);
+  const Map_errors coarse = map_errors<TypeParam>(2, 0.9, length_kept),
+                   fine = map_errors<TypeParam>(4, 0.9, length_kept);
   EXPECT_GT(order(coarse, fine), 2.7);
   for (const Map_errors& e : {coarse, fine}) EXPECT_LT(e.largest, 0.3 * std::pow(k * e.h, 2) * e.h);
 }
@@ -186,9 +187,8 @@ TYPED_TEST(Exponential_map, by_shooting_is_of_fourth_order)
 TYPED_TEST(Exponential_map, is_better_than_the_closest_point)
 {
   const TypeParam surface;
-  const Map_errors closest = map_errors<TypeParam>(3, 0.9, [&](const One_ring& ring, const Vector_3& t) {
-    return surface.closest_point(ring.center() + t);
-  });
+  const Map_errors closest = map_errors<TypeParam>(
+    3, 0.9, [&](const One_ring& ring, const Vector_3& t) { return surface.closest_point(ring.center() + t); });
   EXPECT_LT(map_errors<TypeParam>(3, 0.9, length_kept).rms, closest.rms);
   EXPECT_LT(map_errors<TypeParam>(3, 0.9, shooting).rms, 0.1 * closest.rms);
 }
@@ -222,7 +222,8 @@ TYPED_TEST(Exponential_map, is_continuous_across_the_edges_of_the_ring)
     const One_ring ring = rings.ring(rings.random_inner_vertex(random));
     const Vector_3 t = tangent_vector(ring, random.below(ring.cells.size()), random.real(0.1, 0.9), 0);
     const Vector_3 across = 1e-15 * ring.normal().cross(t);
-    for (const Exponential_map_method method : {Exponential_map_method::length_kept, Exponential_map_method::shooting}) {
+    for (const Exponential_map_method method :
+         {Exponential_map_method::length_kept, Exponential_map_method::shooting}) {
       const Exponential_map_result x = SMA::exponential_map(ring, t + across, method),
                                    y = SMA::exponential_map(ring, t - across, method);
       EXPECT_LT((x.point.position - y.point.position).norm(), 1e-12 * rings.h);
@@ -252,7 +253,8 @@ TYPED_TEST(Exponential_map, stops_at_the_border_of_the_ring)
   Random random(6);
   for (int i = 0; i < 300; ++i) {
     const One_ring ring = rings.ring(rings.random_inner_vertex(random));
-    for (const Exponential_map_method method : {Exponential_map_method::length_kept, Exponential_map_method::shooting}) {
+    for (const Exponential_map_method method :
+         {Exponential_map_method::length_kept, Exponential_map_method::shooting}) {
       const Vector_3 t = random_tangent_vector(ring, 1, random);
       EXPECT_FALSE(SMA::exponential_map(ring, 0.8 * t, method).is_on_border);
       const Exponential_map_result x = SMA::exponential_map(ring, random.real(1.5, 5) * t, method);
@@ -420,7 +422,8 @@ TYPED_TEST(Transport_order, of_one_step_is_three)
 TYPED_TEST(Transport_order, of_schilds_ladder_on_straight_segments_is_one)
 {
   const double k = TypeParam().scale(), length = 1 / k;
-  const double coarse = transport_error<TypeParam>(schild, length, 4), fine = transport_error<TypeParam>(schild, length, 32);
+  const double coarse = transport_error<TypeParam>(schild, length, 4),
+               fine = transport_error<TypeParam>(schild, length, 32);
   const double order = std::log(coarse / fine) / std::log(8);
   EXPECT_GT(order, 0.85);
   EXPECT_LT(order, 1.25);

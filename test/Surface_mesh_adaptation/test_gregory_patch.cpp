@@ -112,7 +112,8 @@ TEST(Gregory_patch, has_the_derivatives_of_its_points)
     // differences of fourth order
     const auto difference = [&](double du, double dv) -> Vector_3 {
       return (8 * (g.point(u + du, v + dv) - g.point(u - du, v - dv)) -
-              (g.point(u + 2 * du, v + 2 * dv) - g.point(u - 2 * du, v - 2 * dv))) / (12 * d);
+              (g.point(u + 2 * du, v + 2 * dv) - g.point(u - 2 * du, v - 2 * dv))) /
+             (12 * d);
     };
     EXPECT_LT((x.du - difference(d, 0)).norm(), 1e-9);
     EXPECT_LT((x.dv - difference(0, d)).norm(), 1e-9);
@@ -183,7 +184,8 @@ TEST(Gregory_patch, without_shape_operators_is_that_of_walton_and_meek)
     Patch p = random_patch(random);
     p.has_shape_operator = {};
     const double u = random.real(0, 0.5), v = random.real(0, 0.5);
-    EXPECT_EQ(Gregory_reconstruction::evaluate(p, u, v).position, Walton_meek_reconstruction::evaluate(p, u, v).position);
+    EXPECT_EQ(Gregory_reconstruction::evaluate(p, u, v).position,
+              Walton_meek_reconstruction::evaluate(p, u, v).position);
   }
 }
 
@@ -298,7 +300,7 @@ bool is_gregory(const Patch& p) { return Gregory_patch_3(p).interior() == Interi
 struct Defect
 {
   double largest = 0;
-  std::size_t edges = 0, skipped = 0;  ///< without those next to a face that fell back
+  std::size_t edges = 0, skipped = 0; ///< without those next to a face that fell back
 };
 
 template <class Reconstruction>
@@ -328,7 +330,8 @@ TEST(Gregory_patch, has_the_tangent_planes_of_its_neighbour_for_any_normals)
 {
   for (const double degrees : {0.0, 10.0, 25.0}) {
     const Patches patches = tilted_torus(degrees * shapes::pi / 180);
-    const Defect gregory = defect<Gregory_reconstruction>(patches), classical = defect<Walton_meek_reconstruction>(patches);
+    const Defect gregory = defect<Gregory_reconstruction>(patches),
+                 classical = defect<Walton_meek_reconstruction>(patches);
     EXPECT_GT(gregory.edges, 500u);
     EXPECT_LT(double(gregory.skipped), 0.3 * double(gregory.edges));
     EXPECT_LT(gregory.largest, 1e-11);
@@ -341,8 +344,7 @@ TEST(Gregory_patch, has_the_tangent_planes_of_its_neighbour_for_any_normals)
 template <class Reference>
 Patches patches(Reference& surface, bool orthogonalize)
 {
-  if (orthogonalize)
-    SMA::orthogonalize_normals(sequential, surface.mesh, surface.features, surface.normals);
+  if (orthogonalize) SMA::orthogonalize_normals(sequential, surface.mesh, surface.features, surface.normals);
   Patches result{surface.mesh, {}};
   for (Index f = 0; f < surface.mesh.number_of_faces(); ++f) result.of_face.push_back(surface.patch(f));
   return result;
@@ -416,7 +418,8 @@ struct Orders
 template <class Reconstruction, class Surface>
 Orders orders(const Surface& surface)
 {
-  const auto a = analytic::patch_errors<Reconstruction>(surface, 2), b = analytic::patch_errors<Reconstruction>(surface, 4);
+  const auto a = analytic::patch_errors<Reconstruction>(surface, 2),
+             b = analytic::patch_errors<Reconstruction>(surface, 4);
   const double steps = std::log(a.h / b.h);
   return {std::log(a.distance / b.distance) / steps, std::log(a.rms_distance / b.rms_distance) / steps,
           std::log(a.normal / b.normal) / steps, std::log(a.rms_normal / b.rms_normal) / steps, b};
@@ -480,8 +483,8 @@ double curve_error(std::size_t n, double tangent_error)
       return (derivative(t).normalized() + tangent_error * h * h * Vector_3(0.5, -0.3, 0.8)).normalized();
     };
     for (const double s : {0.2, 0.4, 0.5, 0.7, 0.9}) {
-      const Vector_3 x = Gregory_reconstruction::evaluate_curve(point(at[i]), point(at[i + 1]), tangent(at[i]),
-                                                                tangent(at[i + 1]), s);
+      const Vector_3 x =
+        Gregory_reconstruction::evaluate_curve(point(at[i]), point(at[i + 1]), tangent(at[i]), tangent(at[i + 1]), s);
       double t = at[i] + s * h; // the closest point, by Newton's method
       for (int k = 0; k < 6; ++k) {
         const Vector_3 d = derivative(t), second(-std::cos(t), -4 * std::sin(2 * t), 1), r = point(t) - x;
@@ -568,10 +571,18 @@ TEST(Gregory_patch, keeps_an_edge_straight_where_the_normals_say_nothing)
     p.is_feature = {};
     const Vector_3 e = p.points[1] - p.points[0];
     switch (i % 4) {
-    case 0: p.normals[0] = e.normalized(); break;                                // along the edge
-    case 1: p.normals[1] = -p.normals[0]; break;                                 // opposite
-    case 2: p.points[1] = p.points[0]; break;                                    // no edge
-    default: p.normals[1] = (Vector_3::UnitZ() + 1.5 * e).normalized(); break;   // 50 degrees off
+    case 0:
+      p.normals[0] = e.normalized();
+      break; // along the edge
+    case 1:
+      p.normals[1] = -p.normals[0];
+      break; // opposite
+    case 2:
+      p.points[1] = p.points[0];
+      break; // no edge
+    default:
+      p.normals[1] = (Vector_3::UnitZ() + 1.5 * e).normalized();
+      break; // 50 degrees off
     }
     const Gregory_patch_3 g(p);
     EXPECT_EQ(g.curve(0), Curve::straight);
@@ -626,14 +637,30 @@ TEST(Gregory_patch, stays_finite_for_slivers_and_wrong_data)
   for (int i = 0; i < 2000; ++i) {
     Patch p = random_patch(random);
     switch (i % 8) {
-    case 0: p.points[2] = p.points[1]; break;
-    case 1: p.points[2] = (p.points[0] + p.points[1]) / 2; break;
-    case 2: p.points = {p.points[0], p.points[0], p.points[0]}; break;
-    case 3: p.points[2] = p.points[0] + 0.4 * (p.points[1] - p.points[0]) + std::exp(random.real(-40, 0)) * random.vector(); break;
-    case 4: for (Vector_3& n : p.normals) n = random.vector().normalized(); break;
-    case 5: for (Vector_3& n : p.normals) n.setZero(); break;
-    case 6: for (auto& t : p.tangents) t = {random.vector().normalized(), Vector_3::Zero()}; break;
-    default: for (Metric_tensor_3& s : p.shape_operators) s = std::exp(random.real(0, 100)) * s; break;
+    case 0:
+      p.points[2] = p.points[1];
+      break;
+    case 1:
+      p.points[2] = (p.points[0] + p.points[1]) / 2;
+      break;
+    case 2:
+      p.points = {p.points[0], p.points[0], p.points[0]};
+      break;
+    case 3:
+      p.points[2] = p.points[0] + 0.4 * (p.points[1] - p.points[0]) + std::exp(random.real(-40, 0)) * random.vector();
+      break;
+    case 4:
+      for (Vector_3& n : p.normals) n = random.vector().normalized();
+      break;
+    case 5:
+      for (Vector_3& n : p.normals) n.setZero();
+      break;
+    case 6:
+      for (auto& t : p.tangents) t = {random.vector().normalized(), Vector_3::Zero()};
+      break;
+    default:
+      for (Metric_tensor_3& s : p.shape_operators) s = std::exp(random.real(0, 100)) * s;
+      break;
     }
     EXPECT_TRUE(is_finite(p)) << "case " << i % 8;
     const Gregory_patch_3 g(p);

@@ -15,8 +15,8 @@ namespace Surface_mesh_adaptation {
 
 struct Patch_fallbacks
 {
-  std::size_t straight_sides = 0;   ///< sides of faces that are chords; an inner edge has two
-  std::size_t cubic_interiors = 0;  ///< faces that do not share the tangent planes of their neighbours
+  std::size_t straight_sides = 0;  ///< sides of faces that are chords; an inner edge has two
+  std::size_t cubic_interiors = 0; ///< faces that do not share the tangent planes of their neighbours
 };
 
 /// Counts the fallbacks of the Gregory patches of the faces `[0, n)`, of which `patch(f)` returns the data.

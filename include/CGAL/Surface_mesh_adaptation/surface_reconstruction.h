@@ -119,7 +119,8 @@ struct Basic_gregory_reconstruction
   {
     const internal::Cubic_handles h = internal::feature_handles(b - a, ta, tb);
     const double s = 1 - t;
-    return ((s * (s * s)) * a + (t * (t * t)) * b) + ((3 * (s * s * t)) * (a + h.start) + (3 * (t * t * s)) * (b + h.end));
+    // summed so that it is the same, to the bit, from both ends
+    return (s * s * s * a + t * t * t * b) + (3 * (s * s * t) * (a + h.start) + 3 * (t * t * s) * (b + h.end));
   }
 };
 
