@@ -249,16 +249,17 @@ struct Patch_errors
   double h, distance, rms_distance, normal, rms_normal;
 };
 
-/// 33 points of each patch: on its edges and inside, without the corners.
-template <class Reconstruction, class Surface>
-Patch_errors patch_errors(const Surface& surface, int level)
+/// 33 points of each patch: on its edges and inside, without the corners. `select(patch)` may mark features, and says
+/// whether the face counts.
+template <class Reconstruction, class Surface, class Select>
+Patch_errors patch_errors(const Surface& surface, const Soup& soup, const Select& select)
 {
-  const Soup soup = mesh(surface, level);
   Patch_errors e{soup.mean_edge_length(), 0, 0, 0, 0};
   std::size_t samples = 0;
   constexpr int n = 7;
   for (const Triangle& t : soup.triangles) {
-    const SMA::Patch p = patch(surface, soup, t);
+    SMA::Patch p = patch(surface, soup, t);
+    if (!select(p)) continue;
     for (int i = 0; i <= n; ++i)
       for (int j = 0; i + j <= n; ++j) {
         if (i == n || j == n || i + j == 0) continue;
@@ -275,6 +276,12 @@ Patch_errors patch_errors(const Surface& surface, int level)
   e.rms_distance = std::sqrt(e.rms_distance / double(samples));
   e.rms_normal = std::sqrt(e.rms_normal / double(samples));
   return e;
+}
+
+template <class Reconstruction, class Surface>
+Patch_errors patch_errors(const Surface& surface, int level)
+{
+  return patch_errors<Reconstruction>(surface, mesh(surface, level), [](const SMA::Patch&) { return true; });
 }
 
 } // namespace analytic

@@ -524,6 +524,34 @@ TEST(Feature_curve, is_of_third_order_up_to_the_corners)
   EXPECT_GT(std::log2(boundary_error(2) / boundary_error(4)) / 2, 2.7);
 }
 
+/// Largest errors of the faces at the boundary of the graph, of which the edges follow the exact tangents of its sides.
+analytic::Patch_errors errors_at_the_boundary(int level)
+{
+  const analytic::Graph graph;
+  const Soup soup = analytic::mesh(graph, level);
+  const auto side_tangent = [&](const Vector_3& p, int axis) {
+    const auto j = graph.jet(p[0], p[1]);
+    return (axis == 0 ? Vector_3(0, 1, j.y) : Vector_3(1, 0, j.x)).normalized();
+  };
+  return analytic::patch_errors<Gregory_reconstruction>(graph, soup, [&](Patch& p) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (const int axis : {0, 1}) {
+        const Vector_3 &a = p.points[i], &b = p.points[(i + 1) % 3];
+        if (a[axis] != b[axis] || std::abs(a[axis]) != 1) continue;
+        p.is_feature[i] = true;
+        p.tangents[i] = {side_tangent(a, axis), side_tangent(b, axis)};
+      }
+    return p.is_feature[0] || p.is_feature[1] || p.is_feature[2];
+  });
+}
+
+TEST(Gregory_patch, keeps_its_order_next_to_features)
+{
+  const auto coarse = errors_at_the_boundary(2), fine = errors_at_the_boundary(4);
+  EXPECT_GT(std::log(coarse.distance / fine.distance) / std::log(coarse.h / fine.h), 3.4);
+  EXPECT_GT(std::log(coarse.normal / fine.normal) / std::log(coarse.h / fine.h), 2.5);
+}
+
 TEST(Feature_curve, is_the_edge_of_both_patches_next_to_it)
 {
   const Soup soup = shapes::capped_cylinder(20, 3, 1);
