@@ -4,6 +4,7 @@
 // does where there is nothing to interpolate.
 
 #include "analytic_surfaces.h"
+#include "policies.h"
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/Gregory_patch_3.h>
@@ -397,6 +398,24 @@ TEST(Orthogonalized_normal, is_the_next_one_that_is_orthogonal_to_both_tangents)
     EXPECT_LT((one - (near - near.dot(s) * s).normalized()).norm(), 1e-14);
     EXPECT_TRUE(SMA::orthogonalized_normal(s, s, t).allFinite());
   }
+}
+
+TEST(Orthogonalized_normals, are_the_same_for_every_policy)
+{
+  const Soup soup = analytic::mesh(analytic::Graph(), 3);
+  const Surface surface(sequential, shapes::view(soup), soup.points, {});
+  SMA::Corner_normals expected = surface.normals;
+  SMA::orthogonalize_normals(sequential, surface.mesh, surface.features, expected);
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    SMA::Corner_normals normals = surface.normals;
+    SMA::orthogonalize_normals(execution, surface.mesh, surface.features, normals);
+    std::size_t changed = 0;
+    for (std::size_t i = 0; i < normals.normals.size(); ++i) {
+      ASSERT_EQ(normals.normals[i], expected.normals[i]) << name;
+      changed += normals.normals[i] != surface.normals.normals[i];
+    }
+    EXPECT_GT(changed, 100u);
+  });
 }
 
 // Convergence
