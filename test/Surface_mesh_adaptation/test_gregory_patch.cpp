@@ -289,6 +289,7 @@ Patches tilted_torus(double tilt)
       p.normals[i] = normals[t[i]];
       p.shape_operators[i] = operators[t[i]];
       p.has_shape_operator[i] = t[i] % 5 > 0;
+      p.tangents[i].fill(Vector_3::Zero());
     }
     result.of_face.push_back(p);
   }

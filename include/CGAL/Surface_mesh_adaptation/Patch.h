@@ -29,11 +29,8 @@ struct Patch
                                                     ///< at corner `i + 1`
   /// Derivative of the unit normal along the surface, `(I - n n^T) / r` on a sphere of radius `r` with outward
   /// normals; zero where it is not known.
-  std::array<Metric_tensor_3, 3> shape_operators{zero_tensor, zero_tensor, zero_tensor};
+  std::array<Metric_tensor_3, 3> shape_operators{{{0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}}};
   std::array<bool, 3> has_shape_operator{};         ///< whether the shape operator of the corner is known
-
-private:
-  static inline const Metric_tensor_3 zero_tensor{0, 0, 0, 0, 0, 0};
 };
 
 } // namespace Surface_mesh_adaptation
