@@ -103,6 +103,29 @@ TEST(Gregory_patch, interpolates_corners_and_their_normals)
   }
 }
 
+TEST(Gregory_patch, interpolates_normals_between_one_two_and_three_feature_edges)
+{
+  Random random(16);
+  for (int i = 0; i < 600; ++i) {
+    Patch p = random_patch(random);
+    for (std::size_t k = 0; k < 3; ++k) p.is_feature[k] = int(k) <= i % 3;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t before = (k + 2) % 3;
+      const Vector_3 &out = p.tangents[k][0], &in = p.tangents[before][1];
+      if (!p.is_feature[k] && !p.is_feature[before]) continue;
+      p.normals[k] = Vector_3::UnitZ();
+      p.normals[k] =
+        SMA::orthogonalized_normal(p.normals[k], p.is_feature[k] ? out : in, p.is_feature[before] ? in : out);
+    }
+    const Gregory_patch_3 g(p);
+    ASSERT_EQ(g.interior(), Interior::gregory);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_EQ(g.curve(k), p.is_feature[k] ? Curve::feature : Curve::smooth);
+      EXPECT_LT((g.normal(k == 1, k == 2) - p.normals[k]).norm(), 1e-13);
+    }
+  }
+}
+
 TEST(Gregory_patch, has_the_derivatives_of_its_points)
 {
   Random random(2);
