@@ -68,22 +68,6 @@ Patch random_patch(Random& random)
   return p;
 }
 
-/// The same face with its corners numbered from `shift` on.
-Patch renumbered(const Patch& p, std::size_t shift)
-{
-  Patch q;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + shift) % 3;
-    q.points[i] = p.points[j];
-    q.normals[i] = p.normals[j];
-    q.is_feature[i] = p.is_feature[j];
-    q.tangents[i] = p.tangents[j];
-    q.shape_operators[i] = p.shape_operators[j];
-    q.has_shape_operator[i] = p.has_shape_operator[j];
-  }
-  return q;
-}
-
 TEST(Gregory_patch, interpolates_corners_and_their_normals)
 {
   Random random(1);
@@ -155,7 +139,7 @@ TEST(Gregory_patch, does_not_depend_on_the_numbering_of_its_corners)
     const Surface_point x = Gregory_reconstruction::evaluate(p, u, v);
     for (const std::size_t shift : {1u, 2u}) {
       const Surface_point y =
-        Gregory_reconstruction::evaluate(renumbered(p, shift), b[(1 + shift) % 3], b[(2 + shift) % 3]);
+        Gregory_reconstruction::evaluate(SMA::renumbered(p, shift), b[(1 + shift) % 3], b[(2 + shift) % 3]);
       EXPECT_LT((x.position - y.position).norm(), 1e-15);
       EXPECT_LT((x.normal - y.normal).norm(), 1e-13);
     }

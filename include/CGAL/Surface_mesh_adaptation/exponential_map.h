@@ -52,18 +52,7 @@ One_ring one_ring(const Mesh_view& mesh, Index h, const PatchOfFace& patch)
   Index g = first;
   do {
     const std::size_t corner = g % 3;
-    const Patch p = patch(Mesh_view::face(g));
-    ring.cells.push_back({Mesh_view::face(g), corner, p});
-    Patch& q = ring.cells.back().patch;
-    for (std::size_t i = 0; i < 3 && corner > 0; ++i) {
-      const std::size_t j = (i + corner) % 3;
-      q.points[i] = p.points[j];
-      q.normals[i] = p.normals[j];
-      q.is_feature[i] = p.is_feature[j];
-      q.tangents[i] = p.tangents[j];
-      q.shape_operators[i] = p.shape_operators[j];
-      q.has_shape_operator[i] = p.has_shape_operator[j];
-    }
+    ring.cells.push_back({Mesh_view::face(g), corner, renumbered(patch(Mesh_view::face(g)), corner)});
     g = mesh.rotated_ccw(g);
   } while (g != first && g != no_index && !mesh.is_feature(g));
   return ring;
