@@ -270,7 +270,8 @@ template <class Reconstruction>
 class Reconstructions : public ::testing::Test
 {};
 
-using All_reconstructions = ::testing::Types<Flat_reconstruction, PN_triangle_reconstruction>;
+using All_reconstructions = ::testing::Types<Flat_reconstruction, PN_triangle_reconstruction, SMA::Gregory_reconstruction,
+                                             SMA::Walton_meek_reconstruction>;
 TYPED_TEST_SUITE(Reconstructions, All_reconstructions, );
 
 TYPED_TEST(Reconstructions, interpolate_their_corners)

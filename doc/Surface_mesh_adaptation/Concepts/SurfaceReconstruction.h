@@ -4,11 +4,14 @@
 \ingroup PkgSurfaceMeshAdaptationConcepts
 \cgalConcept
 
-The surface between the vertices of the input. A patch depends on its own face only: the points and normals of its
-corners, and the tangents of the feature curves on its edges. All functions are static, and called concurrently.
+The surface between the vertices of the input. A patch depends on its own face only: the points, normals and shape
+operators of its corners, and the tangents of the feature curves on its edges. All functions are static, and called
+concurrently.
 
 \cgalHasModel `CGAL::Surface_mesh_adaptation::Flat_reconstruction`
 \cgalHasModel `CGAL::Surface_mesh_adaptation::PN_triangle_reconstruction`
+\cgalHasModel `CGAL::Surface_mesh_adaptation::Gregory_reconstruction`
+\cgalHasModel `CGAL::Surface_mesh_adaptation::Walton_meek_reconstruction`
 */
 class SurfaceReconstruction
 {
@@ -18,8 +21,8 @@ public:
   /// input.
   static Surface_point evaluate(const Patch& patch, double u, double v);
 
-  /// The point at parameter `t` of a feature curve from `a` to `b` with unit tangents `ta` and `tb` there: the same
-  /// points as those of an edge of a patch with these tangents.
+  /// The point at parameter `t` of a feature curve from `a` to `b` with unit tangents `ta` and `tb` there, of either
+  /// sign: the same points as those of an edge of a patch with these tangents.
   static Vector_3 evaluate_curve(const Vector_3& a, const Vector_3& b, const Vector_3& ta, const Vector_3& tb,
                                  double t);
 };

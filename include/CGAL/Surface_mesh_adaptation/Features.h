@@ -69,11 +69,12 @@ struct Features
   std::vector<Curve_node> node_of_vertex;  ///< of curve vertices; of a closed chain's first vertex, index 0
   std::vector<Feature_curve> curves;
 
-  /// Unit tangent of `curve` at its vertex `v`; at a corner, the direction of the edge `chord`.
-  Vector_3 tangent(Index curve, Index v, const Vector_3& chord) const
+  /// Unit tangent, in the direction of the chain, of `curve` at the vertex `v` of its edge between `v` and `w`.
+  const Vector_3& tangent(Index curve, Index v, Index w) const
   {
-    if (vertex_class[v] != Vertex_class::curve) return chord.normalized();
-    return curves[curve].tangents[node_of_vertex[v].index];
+    const Feature_curve& c = curves[curve];
+    if (vertex_class[v] == Vertex_class::curve) return c.tangents[node_of_vertex[v].index];
+    return c.vertices.front() == v && c.vertices[1] == w ? c.tangents.front() : c.tangents.back();
   }
 };
 
@@ -288,18 +289,33 @@ private:
     features_.curves.push_back(std::move(c));
   }
 
-  /// Three-point tangent, of second order on uneven points; one-sided at the ends.
+  /// Three-point tangent, of second order on uneven points: of the parabola through the vertex and its neighbours, or
+  /// at an end through the first three vertices. The chord, if there are no three.
   Vector_3 tangent(const Feature_curve& c, std::size_t i) const
   {
     const std::size_t n = c.vertices.size();
-    const bool first = i == 0, last = i + 1 == n;
-    const Vector_3& p = points_[c.vertices[i]];
-    const Index before = c.vertices[first ? n - 2 : i - 1], after = c.vertices[last ? 1 : i + 1];
-    if (first && !c.closed) return (points_[after] - p).normalized();
-    if (last && !c.closed) return (p - points_[before]).normalized();
-    const Vector_3 dm = p - points_[before], dp = points_[after] - p;
+    if (n < 3) return chord(c, 0, 1).normalized();
+    if (!c.closed && i == 0) return end_tangent(chord(c, 0, 1), chord(c, 1, 2));
+    if (!c.closed && i + 1 == n) return -end_tangent(chord(c, n - 1, n - 2), chord(c, n - 2, n - 3));
+    const Vector_3 dm = chord(c, i == 0 ? n - 2 : i - 1, i), dp = chord(c, i, i + 1 == n ? 1 : i + 1);
     const double lm = dm.norm(), lp = dp.norm();
     return (lm * lp > 0 ? Vector_3(dp * (lm / lp) + dm * (lp / lm)) : Vector_3(dp + dm)).normalized();
+  }
+
+  /// The tangent at the start of two chords that follow each other; the first one if the parabola turns off by more
+  /// than 30 degrees, which says that the chain is too coarse for it.
+  static Vector_3 end_tangent(const Vector_3& first, const Vector_3& second)
+  {
+    constexpr double least_cosine = 0.866;
+    const double l1 = first.norm(), l2 = second.norm();
+    if (!(l1 * l2 > 0)) return first.normalized();
+    const Vector_3 t = (first / l1 + (first / l1 - second / l2) * (l1 / (l1 + l2))).normalized();
+    return t.dot(first) > least_cosine * l1 ? t : Vector_3(first / l1);
+  }
+
+  Vector_3 chord(const Feature_curve& c, std::size_t i, std::size_t j) const
+  {
+    return points_[c.vertices[j]] - points_[c.vertices[i]];
   }
 
   Mesh_view& mesh_;

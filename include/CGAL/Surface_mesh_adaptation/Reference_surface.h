@@ -62,6 +62,25 @@ public:
     return {c, Mesh_view::face(h), h % 3 == 1 ? 1.0 : 0.0, h % 3 == 2 ? 1.0 : 0.0};
   }
 
+  /// What the patch over face `f` is made from.
+  Patch patch(Index f) const
+  {
+    Patch p;
+    const std::size_t h = 3 * std::size_t(f);
+    for (std::size_t i = 0; i < 3; ++i) {
+      p.points[i] = points[mesh.corner[h + i]];
+      p.normals[i] = normals.at(Index(h + i));
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index curve = mesh.curve[h + i];
+      p.is_feature[i] = curve != no_curve;
+      if (!p.is_feature[i]) continue;
+      const Index v = mesh.corner[h + i], w = mesh.corner[h + (i + 1) % 3];
+      p.tangents[i] = {features.tangent(curve, v, w), features.tangent(curve, w, v)};
+    }
+    return p;
+  }
+
   /// Position and normal at `l`; the normal is zero on curves and at corners, which have several.
   Surface_point evaluate(const Location& l) const
   {
@@ -239,25 +258,6 @@ private:
     for (double& x : b) x /= sum;
     step *= 1 - s;
     return exit;
-  }
-
-  Patch patch(Index f) const
-  {
-    Patch p;
-    const std::size_t h = 3 * std::size_t(f);
-    for (std::size_t i = 0; i < 3; ++i) {
-      p.points[i] = points[mesh.corner[h + i]];
-      p.normals[i] = normals.at(Index(h + i));
-    }
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index curve = mesh.curve[h + i];
-      p.is_feature[i] = curve != no_curve;
-      if (!p.is_feature[i]) continue;
-      const Vector_3 chord = p.points[(i + 1) % 3] - p.points[i];
-      p.tangents[i][0] = features.tangent(curve, mesh.corner[h + i], chord);
-      p.tangents[i][1] = features.tangent(curve, mesh.corner[h + (i + 1) % 3], chord);
-    }
-    return p;
   }
 
   Vector_3 curve_point(const Feature_curve& c, double s) const

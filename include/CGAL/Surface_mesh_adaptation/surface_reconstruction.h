@@ -5,29 +5,15 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_RECONSTRUCTION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_RECONSTRUCTION_H
 
-#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/Gregory_patch_3.h>
+#include <CGAL/Surface_mesh_adaptation/Patch.h>
+#include <CGAL/Surface_mesh_adaptation/internal/cubic_curve.h>
 #include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 
-#include <array>
+#include <cstddef>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
-
-struct Surface_point
-{
-  Vector_3 position;
-  Vector_3 normal;  ///< unit
-};
-
-/// What a patch may depend on: the corners of its own face and the marks of its edges. Edge `i` joins corners `i`
-/// and `i + 1`.
-struct Patch
-{
-  std::array<Vector_3, 3> points;
-  std::array<Vector_3, 3> normals;                  ///< unit, of the smooth sector that the face belongs to
-  std::array<bool, 3> is_feature{};                 ///< whether the edge lies on a feature curve
-  std::array<std::array<Vector_3, 2>, 3> tangents;  ///< unit tangents of that curve at the ends of the edge
-};
 
 /// Flat facets: the surface is the input mesh itself.
 /// \cgalModels `SurfaceReconstruction`
@@ -116,6 +102,30 @@ private:
     return along / 3 * tangent;
   }
 };
+
+/// `Gregory_patch_3`: quartic, with common tangent planes across smooth edges. With exact normals and shape operators
+/// of fourth order in the distance and third in the normals; without shape operators, or by the construction of Walton
+/// and Meek, of third and second order.
+/// \cgalModels `SurfaceReconstruction`
+template <Gregory_patch_3::Construction construction = Gregory_patch_3::Construction::mid_edge>
+struct Basic_gregory_reconstruction
+{
+  CGAL_SMA_FLATTEN static Surface_point evaluate(const Patch& p, double u, double v)
+  {
+    return Gregory_patch_3(p, construction).evaluate(u, v);
+  }
+
+  static Vector_3 evaluate_curve(const Vector_3& a, const Vector_3& b, const Vector_3& ta, const Vector_3& tb, double t)
+  {
+    const internal::Cubic_handles h = internal::feature_handles(b - a, ta, tb);
+    const double s = 1 - t;
+    // summed so that it is the same, to the bit, from both ends
+    return (s * s * s * a + t * t * t * b) + (3 * (s * s * t) * (a + h.start) + 3 * (t * t * s) * (b + h.end));
+  }
+};
+
+using Gregory_reconstruction = Basic_gregory_reconstruction<>;
+using Walton_meek_reconstruction = Basic_gregory_reconstruction<Gregory_patch_3::Construction::walton_meek>;
 
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
