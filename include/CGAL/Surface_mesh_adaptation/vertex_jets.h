@@ -102,6 +102,9 @@ Cubic_fit fit_over_plane(const Sector_neighborhood& neighbors, const std::vector
   return fit;
 }
 
+/// Relative error of the samples of a fit times what the fit makes of it.
+constexpr double fit_rounding = 1e-14;
+
 struct Jet_of_sector
 {
   Vector_3 normal;
@@ -140,8 +143,11 @@ CGAL_SMA_FLATTEN inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vec
   });
   constexpr double largest_squared_slope = 1.0 / 3; // tan(30 degrees)^2
   Derivatives_2 f;
+  // second derivatives that the rounding of the coordinates explains are none
+  const double rounding = fit_rounding * frame.origin.lpNorm<Eigen::Infinity>() / radius;
   const auto accept = [&](bool solved) {
     if (!solved || !(f.gradient.squaredNorm() <= largest_squared_slope) || !f.hessian.allFinite()) return false;
+    if (f.hessian.lpNorm<Eigen::Infinity>() <= rounding) f.hessian.setZero();
     jet = jet_of_graph(frame, f, radius);
     return true;
   };
