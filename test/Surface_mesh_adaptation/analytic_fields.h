@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace analytic {
 
@@ -55,6 +56,44 @@ struct Surface
     return across * u.hessian(p) * across - u.gradient(p).dot(n) * shape_operator(p);
   }
 };
+
+/// A smooth function with no symmetry.
+inline Function waves()
+{
+  return {[](const Vector_3& p) {
+            return std::sin(2 * p[0] + p[1]) + 0.5 * p[2] * p[0] + 0.3 * std::cos(3 * p[2]);
+          },
+          [](const Vector_3& p) {
+            const double c = std::cos(2 * p[0] + p[1]);
+            return Vector_3(2 * c + 0.5 * p[2], c, 0.5 * p[0] - 0.9 * std::sin(3 * p[2]));
+          },
+          [](const Vector_3& p) {
+            const double s = std::sin(2 * p[0] + p[1]);
+            Matrix_3 h;
+            h << -4 * s, -2 * s, 0.5, -2 * s, -s, 0, 0.5, 0, -2.7 * std::cos(3 * p[2]);
+            return h;
+          }};
+}
+
+/// A quadratic function with the second derivatives `h`.
+inline Function quadratic(const Matrix_3& h, const Vector_3& slope)
+{
+  return {[=](const Vector_3& p) { return p.dot(h * p) / 2 + slope.dot(p); },
+          [=](const Vector_3& p) { return Vector_3(h * p + slope); }, [=](const Vector_3&) { return h; }};
+}
+
+/// A steep front across the unit square.
+inline double front(const Vector_3& p)
+{
+  return std::tanh(50 * (p[0] - 0.5 + 0.1 * std::sin(2 * shapes::pi * p[1])));
+}
+
+inline std::vector<double> samples(const Function& f, const std::vector<Vector_3>& points)
+{
+  std::vector<double> values;
+  for (const Vector_3& p : points) values.push_back(f.value(p));
+  return values;
+}
 
 inline Soup mapped(Soup soup, const std::function<Vector_3(const Vector_3&)>& map)
 {

@@ -20,7 +20,7 @@ namespace Surface_mesh_adaptation {
 
 namespace internal {
 
-/// Curvature of the feature curve at a node, as a tensor along its tangent.
+/// Curvature of the feature curve at a node, as a tensor along its tangent; zero if rounding explains it.
 template <class Reference>
 Metric_tensor_3 curvature_of_curve(const Reference& reference, Index v)
 {
@@ -32,8 +32,9 @@ Metric_tensor_3 curvature_of_curve(const Reference& reference, Index v)
                         (i == 0 ? c.length() - c.arc_length[before] : c.arc_length[i] - c.arc_length[before]);
   const Vector_3 a = (reference.points[v] - reference.points[c.vertices[before]]).normalized();
   const Vector_3 b = (reference.points[c.vertices[after]] - reference.points[v]).normalized();
-  if (!(length > 0)) return Metric_tensor_3(0, 0, 0, 0, 0, 0);
-  const double curvature = 2 * (b - a).norm() / length;
+  const double turn = (b - a).norm(), rounding = fit_rounding * (1 + reference.points[v].norm() / length);
+  if (!(turn > rounding)) return Metric_tensor_3(0, 0, 0, 0, 0, 0);
+  const double curvature = 2 * turn / length;
   return Metric_tensor_3(Matrix_3(curvature * c.tangents[i] * c.tangents[i].transpose()));
 }
 

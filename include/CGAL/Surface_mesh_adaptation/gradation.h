@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/metric_intersection.h>
 #include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
@@ -55,7 +56,7 @@ namespace internal {
 /// Whether `m - a` is positive semidefinite but for rounding: then intersecting `m` with `a` would not change it.
 inline bool dominates(const Metric_tensor_3& m, const Metric_tensor_3& a)
 {
-  constexpr double relative_slack = 1e-12, absolute_slack = 1e-14; // the latter in units of the largest eigenvalue
+  constexpr double relative_slack = 1e-11, absolute_slack = 1e-14; // the latter in units of the largest eigenvalue
   const double slack = absolute_slack * (m[0] + m[2] + m[5]);
   const auto d = [&](int i) { return m[i] + relative_slack * m[i] - a[i]; };
   // Cholesky factors of d + slack I, column by column
@@ -87,39 +88,33 @@ public:
     , changed_(tensors.size(), 1)
   {}
 
-  /// Looks at the vertices with a changed neighbour, until there are none.
   template <class Execution>
   void run(const Execution& execution)
   {
-    std::vector<Metric_tensor_3> raised;
-    for (;;) {
-      const std::vector<Index> active = pack(execution, tensors_.size(), [&](std::size_t v) {
-        bool is_active = false;
-        mesh_.for_each_neighbor(Index(v), [&](Index w) { is_active = is_active || changed_[w] != 0; });
-        return is_active;
+    const std::size_t n = tensors_.size();
+    std::vector<Metric_tensor_3> raised(n);
+    std::vector<std::uint8_t> is_raised(n);
+    std::size_t changes = 0;
+    do {
+      changes = count_if(execution, n, [&](std::size_t v) {
+        raised[v] = raised_tensor(Index(v));
+        is_raised[v] = raised[v] == tensors_[v] ? 0 : 1;
+        return is_raised[v] != 0;
       });
-      if (active.empty()) return;
-      raised.resize(active.size());
-      for_each_index(execution, active.size(), [&](std::size_t i) { raised[i] = raised_tensor(active[i]); },
-                     heavy_chunk_length);
-      for_each_index(execution, changed_.size(), [&](std::size_t v) { changed_[v] = 0; });
-      for_each_index(execution, active.size(), [&](std::size_t i) {
-        changed_[active[i]] = raised[i] == tensors_[active[i]] ? 0 : 1;
-        tensors_[active[i]] = raised[i];
-      });
-    }
+      tensors_.swap(raised);
+      changed_.swap(is_raised);
+    } while (changes > 0);
   }
 
 private:
   /// The tensor at `v`, intersected with what its changed neighbours let grow there.
-  Metric_tensor_3 raised_tensor(Index v) const
+  CGAL_SMA_FLATTEN Metric_tensor_3 raised_tensor(Index v) const
   {
     Metric_tensor_3 result = tensors_[v];
     Ring<Ranked_metric> candidates;
     const auto look_along = [&](Index from_v, Index from_w) {
-      const Index w = mesh_.source(from_w);
-      if (!changed_[w]) return;
-      const Metric_tensor_3 grown = grown_tensor(w, v, normals_.at(from_w), normals_.at(from_v));
+      if (!changed_[mesh_.source(from_w)]) return;
+      const Metric_tensor_3 grown = grown_tensor(from_w, from_v);
       if (!dominates(result, grown)) candidates.emplace_back(grown);
     };
     mesh_.for_each_outgoing(v, [&](Index h) {
@@ -135,12 +130,15 @@ private:
     return result;
   }
 
-  /// The tensor of `w` carried to `v`, its sizes grown by the length of the edge in it.
-  Metric_tensor_3 grown_tensor(Index w, Index v, const Vector_3& normal_w, const Vector_3& normal_v) const
+  /// The tensor at the corner `from`, carried to the corner `to` at the other end of an edge, its sizes grown by the
+  /// length of the edge in it.
+  Metric_tensor_3 grown_tensor(Index from, Index to) const
   {
-    const Vector_3 edge = edge_in_tangent_plane(points_[v] - points_[w], normal_w, normal_v);
+    const Index w = mesh_.source(from), v = mesh_.source(to);
+    const Vector_3 &normal = normals_.at(from), &normal_of_end = normals_.at(to);
+    const Vector_3 edge = edge_in_tangent_plane(points_[v] - points_[w], normal, normal_of_end);
     const double growth = 1 + slope_ * tensors_[w].length(edge);
-    return 1 / (growth * growth) * rotated(tensors_[w], minimal_rotation(normal_w, normal_v));
+    return 1 / (growth * growth) * rotated(tensors_[w], minimal_rotation(normal, normal_of_end));
   }
 
   const Mesh_view& mesh_;

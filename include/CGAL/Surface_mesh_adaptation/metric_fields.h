@@ -239,7 +239,7 @@ void with_vertex_metric(const Execution&, const PropertyMap& map, const Import& 
 }
 
 template <class Field>
-auto without_gradation(Field field, int) -> decltype(field.gradation, field)
+auto without_gradation(Field field, int) -> decltype(void(field.gradation), Field(field))
 {
   field.gradation = 1;
   return field;

@@ -52,13 +52,14 @@ struct Ranked_metric
 } // namespace internal
 
 /// The intersection of all `metrics` (a range of `Metric_tensor_3`), folded by decreasing determinant, ties by the
-/// coefficients: intersection is not associative, but the result does not depend on the order of the range.
-/// \pre the range is not empty and all are positive definite
+/// coefficients: intersection is not associative, but the result does not depend on the order of the range. Zero if it
+/// is empty. \pre all are positive definite
 template <class Metrics>
 Metric_tensor_3 intersection_of_all(const Metrics& metrics)
 {
   boost::container::small_vector<internal::Ranked_metric, 16> ranked;
   for (const Metric_tensor_3& m : metrics) ranked.emplace_back(m);
+  if (ranked.empty()) return Metric_tensor_3(0, 0, 0, 0, 0, 0);
   std::sort(ranked.begin(), ranked.end());
   Metric_tensor_3 result = ranked.front().metric;
   for (std::size_t i = 1; i < ranked.size(); ++i) result = intersection(result, ranked[i].metric);

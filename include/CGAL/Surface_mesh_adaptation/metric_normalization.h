@@ -44,9 +44,10 @@ struct Metric_complexity
   double boundary_length = 0;  ///< length of the boundary in units of the metric
 };
 
-/// Number of faces per unit of area over that of a mesh of equilateral triangles with edges of length 1, `4 / sqrt(3)`:
-/// a mesh that fits a metric does so on average only. To be measured for whatever makes the mesh.
-constexpr double default_packing = 1;
+/// Number of faces per unit of area, over that of equilateral triangles with edges of length 1, `4 / sqrt(3)`: a mesh
+/// fits its metric on average only. Measured with the driver of this package: 0.97 to 1.08 on spheres, tori and a
+/// square with a shock, up to 1.17 on mechanical parts with many ridges.
+constexpr double default_packing = 1.04;
 
 /// The number of vertices of a mesh with unit edges in a metric of this complexity: `2 packing C / sqrt(3)`, plus half
 /// the number of boundary edges and the Euler characteristic.
@@ -217,20 +218,21 @@ std::pair<double, double> range_of_traces(const Execution& execution, const std:
 }
 
 /// Finds `x` in `[low, high]` with `f(x) = 0` to within `tolerance`, or the end that is nearer to it, for `f` that does
-/// not decrease and has a slope of about 1 at most places: secants within a bracket, halved where they do not help.
+/// not decrease: secants through the last two points, the first with slope 1, and halves of the bracket where they
+/// leave it.
 template <class F>
 double solve_increasing(const F& f, double low, double high, double start, double tolerance)
 {
-  double x = start, low_value = 0, high_value = 0; // the values at the ends once they are known
-  while (high - low > tolerance / 16) {
+  double x = start, slope = 1, last_x = 0, last_value = 0;
+  for (int i = 0; high - low > tolerance / 16; ++i) {
     const double value = f(x);
     if (std::abs(value) <= tolerance) return x;
     (value < 0 ? low : high) = x;
-    (value < 0 ? low_value : high_value) = value;
-    const bool has_bracket = low_value < 0 && high_value > 0;
-    const double next = has_bracket ? low - low_value * (high - low) / (high_value - low_value) : x - 1.2 * value;
-    const double margin = 0.02 * (high - low); // a secant that creeps along one end is stopped
-    x = has_bracket ? std::clamp(next, low + margin, high - margin) : next > low && next < high ? next : (low + high) / 2;
+    if (i > 0 && (value - last_value) * (x - last_x) > 0) slope = std::clamp((value - last_value) / (x - last_x), 0.2, 5.0);
+    last_x = x;
+    last_value = value;
+    x -= value / slope;
+    if (!(x > low && x < high)) x = (low + high) / 2;
   }
   return x;
 }
@@ -250,10 +252,11 @@ std::vector<Value> metric_at_scale(const Execution& execution, const Mesh_view& 
   return values;
 }
 
-/// The metric of the scale at which a mesh with unit edges has `number_of_vertices`, to within half a percent, if the
+/// The metric of the scale at which a mesh with unit edges has `number_of_vertices`, to within one percent, if the
 /// bounds allow it: else as near as they do. The bounds and the gradation hold in the result, for the scale is solved
 /// for with both: first with the bounds alone, whose number of vertices is cheap to find, then with the gradation.
-/// \complexity O(n) for each of about five to ten evaluations, and the gradation for about three
+/// (Where tensors with different directions meet, the gradation may ask for sizes a little below `hmin`.)
+/// \complexity O(n) for each of about five to ten evaluations, and three to four gradations
 template <class Value, class Execution>
 std::vector<Value> normalize_to_vertex_count(const Execution& execution, const Mesh_view& mesh,
                                              const std::vector<Vector_3>& points, const Corner_normals& normals,
@@ -272,7 +275,7 @@ std::vector<Value> normalize_to_vertex_count(const Execution& execution, const M
   // from where all sizes are hmax to where all are hmin
   const double low = -std::log(largest * metric.bounds.hmax * metric.bounds.hmax),
                high = (std::max)(low, std::log(1e12 / (least * metric.bounds.hmin * metric.bounds.hmin)));
-  constexpr double tolerance = 0.005;
+  constexpr double tolerance = 0.01;
   const double start = internal::solve_increasing([&](double log_scale) {
     internal::scale(execution, metric, std::exp(log_scale), values);
     return excess();

@@ -179,19 +179,21 @@ inline Metric_tensor_3 shape_operator_of_face(const std::array<Vector_3, 3>& p, 
                                   s[2] * v * v.transpose()));
 }
 
-/// The mean of the shape operators of the faces of a sector, weighted by area, each carried to the tangent plane.
+/// The mean of the shape operators of the faces of a sector, weighted by area, each carried to the tangent plane; zero
+/// if it is what the rounding of coordinates and normals explains.
 inline Metric_tensor_3 mean_shape_operator(const Mesh_view& mesh, const std::vector<Vector_3>& points,
-                                           const Corner_jets& jets, Index first, std::size_t n)
+                                           const Corner_jets& jets, Index first, std::size_t n_faces)
 {
   const Vector_3& normal = jets.normals[jets.of_corner[first]];
   Metric_tensor_3 sum(0, 0, 0, 0, 0, 0);
   double weight = 0;
-  for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h)) {
+  Index h = first;
+  for (std::size_t i = 0; i < n_faces; ++i, h = mesh.rotated_ccw(h)) {
     const std::array<Index, 3> corners{h, Mesh_view::next(h), Mesh_view::previous(h)};
     std::array<Vector_3, 3> p, normals;
-    for (std::size_t i = 0; i < 3; ++i) {
-      p[i] = points[mesh.corner[corners[i]]];
-      normals[i] = jets.normals[jets.of_corner[corners[i]]];
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = points[mesh.corner[corners[k]]];
+      normals[k] = jets.normals[jets.of_corner[corners[k]]];
     }
     const Vector_3 across = (p[1] - p[0]).cross(p[2] - p[0]);
     const double area = across.norm();
@@ -199,7 +201,10 @@ inline Metric_tensor_3 mean_shape_operator(const Mesh_view& mesh, const std::vec
     sum += area * rotated(shape_operator_of_face(p, normals), minimal_rotation(across / area, normal));
     weight += area;
   }
-  return weight > 0 ? (1 / weight) * sum : sum;
+  const double faces = double(n_faces), area = weight / faces;
+  const double rounding = fit_rounding * (points[mesh.source(first)].lpNorm<Eigen::Infinity>() + std::sqrt(area));
+  if (!(sum.matrix().lpNorm<Eigen::Infinity>() > faces * rounding)) return Metric_tensor_3(0, 0, 0, 0, 0, 0);
+  return (1 / weight) * sum;
 }
 
 } // namespace internal

@@ -38,7 +38,7 @@ std::vector<Metric_tensor_3> intersect_sectors(const Execution& execution, const
       append(of_sector(last));
     });
     append_of_vertex(Index(v), append);
-    result[v] = tensors.empty() ? Metric_tensor_3(0, 0, 0, 0, 0, 0) : intersection_of_all(tensors);
+    result[v] = intersection_of_all(tensors);
   });
   return result;
 }
