@@ -703,6 +703,25 @@ TEST(Intersection_metric_field, of_tensors_dominates_them_and_meets_a_number)
   EXPECT_NEAR(double(adapted.number_of_vertices()), 3000, 0.12 * 3000);
 }
 
+TEST(Metric_fields, give_the_same_bits_with_every_policy)
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::capped_cylinder(40, 12, 1));
+  SMA::Curvature_metric_field curvature(1e-3);
+  auto solution = solution_field(mesh, wave, 500);
+  curvature.anisotropic = solution.anisotropic = true;
+  SMA::Intersection_metric_field field(curvature, solution);
+  field.vertices = 800;
+  Soup expected;
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    Mesh adapted = mesh;
+    SMA::adapt_surface_mesh(execution, adapted, field, SMA::parameters::number_of_iterations(1));
+    const Soup soup = shapes::soup(adapted);
+    if (expected.points.empty()) expected = soup;
+    EXPECT_EQ(soup.points, expected.points) << name;
+    EXPECT_EQ(soup.triangles, expected.triangles) << name;
+  });
+}
+
 /// Mean error of the linear interpolation of the front on the faces of a mesh of the unit square, by 10 samples each.
 double interpolation_error(const Mesh& mesh)
 {
