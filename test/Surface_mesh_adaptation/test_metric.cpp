@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/gradation.h>
 #include <CGAL/Surface_mesh_adaptation/metric.h>
+#include <CGAL/Surface_mesh_adaptation/metric_intersection.h>
 #include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 
 #include <Eigen/LU>

@@ -10,7 +10,9 @@ What a mesh is adapted to: a size or a metric tensor at every point of the surfa
 
 \cgalHasModel `CGAL::Surface_mesh_adaptation::Uniform_metric_field`
 \cgalHasModel `CGAL::Surface_mesh_adaptation::Curvature_metric_field`
+\cgalHasModel `CGAL::Surface_mesh_adaptation::Solution_metric_field<VertexScalarMap>`
 \cgalHasModel `CGAL::Surface_mesh_adaptation::Analytic_metric_field<Function>`
+\cgalHasModel `CGAL::Surface_mesh_adaptation::Intersection_metric_field<MetricFields...>`
 */
 class MetricField
 {

@@ -149,20 +149,6 @@ inline Metric_tensor_3 log_euclidean_interpolation(const Metric_tensor_3& a, con
   return exp((1 - t) * log(a) + t * log(b));
 }
 
-/// The largest metric whose unit ball lies in both unit balls, by simultaneous reduction. Commutative and
-/// idempotent, not associative. In the form `A^(1/2) max(1, A^(-1/2) B A^(-1/2)) A^(1/2)` it is exact for
-/// homothetic tensors, where the eigenvectors of `A^-1 B` are lost.
-inline Metric_tensor_3 intersection(const Metric_tensor_3& a, const Metric_tensor_3& b)
-{
-  const Eigen_decomposition_3 ea = eigen_decomposition(a);
-  const Vector_3 root = ea.values.array().sqrt().matrix();
-  const Matrix_3 half = ea.vectors * root.asDiagonal() * ea.vectors.transpose();
-  const Matrix_3 inverse_half = ea.vectors * root.cwiseInverse().asDiagonal() * ea.vectors.transpose();
-  const Eigen_decomposition_3 es = eigen_decomposition(Metric_tensor_3(Matrix_3(inverse_half * b.matrix() * inverse_half)));
-  const Matrix_3 q = half * es.vectors;
-  return Metric_tensor_3(Matrix_3(q * es.values.cwiseMax(1.0).asDiagonal() * q.transpose()));
-}
-
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

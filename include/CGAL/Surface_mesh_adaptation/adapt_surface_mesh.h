@@ -24,7 +24,8 @@ step at the end: if anything throws, it is as it was.
 \param mesh a triangulated 2-manifold, closed or with boundary, of any number of components. Its elements are
        renumbered; of its property maps only the vertex points and those passed below are meaningful afterwards.
 \param field what to adapt to, a model of `MetricField`: `Uniform_metric_field`, `Curvature_metric_field`,
-       `Analytic_metric_field`, or a property map from vertices to sizes or to `Metric_tensor_3`.
+       `Solution_metric_field`, `Analytic_metric_field`, an `Intersection_metric_field` of several, or a property map
+       from vertices to sizes or to `Metric_tensor_3`.
 \param np named parameters, from `parameters` of this namespace or of CGAL
 
 \cgalNamedParamsBegin

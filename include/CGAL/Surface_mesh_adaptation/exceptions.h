@@ -79,6 +79,15 @@ public:
   {}
 };
 
+/// A value of a scalar field that is NaN or infinite.
+class Invalid_field_error : public Invalid_input_error
+{
+public:
+  explicit Invalid_field_error(std::size_t vertex)
+    : Invalid_input_error("the value of the field is not finite", "vertex", vertex)
+  {}
+};
+
 /// An input with no face.
 class Empty_mesh_error : public Adaptation_error
 {

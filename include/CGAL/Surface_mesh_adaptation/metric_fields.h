@@ -6,15 +6,21 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_METRIC_FIELDS_H
 
 #include <CGAL/Surface_mesh_adaptation/Metric_background.h>
+#include <CGAL/Surface_mesh_adaptation/Size_bounds.h>
 #include <CGAL/Surface_mesh_adaptation/curvature.h>
 #include <CGAL/Surface_mesh_adaptation/gradation.h>
+#include <CGAL/Surface_mesh_adaptation/hessian.h>
+#include <CGAL/Surface_mesh_adaptation/metric_intersection.h>
+#include <CGAL/Surface_mesh_adaptation/metric_normalization.h>
 
 #include <CGAL/number_utils.h>
 
 #include <boost/property_map/property_map.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -35,21 +41,62 @@ struct Uniform_metric_field
 };
 
 /// Sizes from the curvature of the surface, so that the distance between the surface and its faces stays near a
-/// tolerance: the size along a principal direction of curvature `k` is `sqrt(6 tolerance / |k|)`.
+/// tolerance: the size along a principal direction of curvature `k` is `sqrt(6 tolerance / |k|)`, which is exact where
+/// both curvatures have the same sign, and too small by a factor of up to `sqrt(4 / 3)` on saddles.
 /// \cgalModels `MetricField`
 struct Curvature_metric_field
 {
   double relative_tolerance;   ///< as a fraction of the diagonal of the bounding box
-  double hmin = 0;             ///< smallest size; 0: the tolerance itself
-  double hmax = 0;             ///< largest size; 0: a tenth of the diagonal
+  double hmin = 0;             ///< smallest size; 0: the tolerance itself, with a number of vertices 1e-6 diagonals
+  double hmax = 0;             ///< largest size; 0: a tenth of the diagonal, with a number of vertices the diagonal
   bool anisotropic = false;    ///< keep the directions; else the smaller of the two sizes counts in all
-  double gradation = 1.5;      ///< largest ratio of the sizes at two points one size apart
+  double gradation = default_gradation;            ///< largest ratio of the sizes at two points one size apart
+  double max_anisotropy = default_max_anisotropy;  ///< largest ratio of the two sizes at a point
+  bool noisy = false;          ///< the points are not quite on the surface: smoother, less accurate curvatures
+  std::size_t vertices = 0;    ///< if not 0, the tolerance is that with which the mesh has so many vertices
 
   explicit Curvature_metric_field(double relative_tolerance_) : relative_tolerance(relative_tolerance_)
   {
     if (!(relative_tolerance > 0) || !std::isfinite(relative_tolerance))
       throw Invalid_parameter_error("the tolerance must be positive and finite");
   }
+};
+
+/// Sizes from a scalar field, given at the vertices, so that the L^p norm of the error of its linear interpolation on
+/// the mesh is as small as a number of vertices allows (Loseille, Alauzet 2011).
+/// \tparam VertexScalarMap a `ReadablePropertyMap` with the vertex descriptor as key and a value convertible to `double`
+/// \cgalModels `MetricField`
+template <class VertexScalarMap>
+struct Solution_metric_field
+{
+  VertexScalarMap values;
+  std::size_t vertices;        ///< the number of vertices that the mesh is to have
+  double norm = 2;             ///< p, at least 1: the smaller, the more weight for weak features; may be infinite
+  double hmin = 0;             ///< smallest size; 0: 1e-6 diagonals of the bounding box
+  double hmax = 0;             ///< largest size; 0: the diagonal
+  bool anisotropic = false;    ///< keep the directions; else the smaller of the two sizes counts in all
+  double gradation = default_gradation;            ///< largest ratio of the sizes at two points one size apart
+  double max_anisotropy = default_max_anisotropy;  ///< largest ratio of the two sizes at a point
+
+  Solution_metric_field(VertexScalarMap values_, std::size_t vertices_) : values(std::move(values_)), vertices(vertices_)
+  {
+    if (vertices < 4) throw Invalid_parameter_error("the number of vertices asked for must be at least 4");
+  }
+};
+
+/// What several fields ask for at once: the intersection of their metrics at the vertices of the input, anisotropic if
+/// one of them is. The gradation of the fields does not count, that of the intersection does.
+/// \cgalModels `MetricField`
+template <class... MetricFields>
+struct Intersection_metric_field
+{
+  std::tuple<MetricFields...> fields;
+  double gradation = default_gradation;  ///< largest ratio of the sizes at two points one size apart
+  std::size_t vertices = 0;    ///< if not 0, the intersection is scaled so that the mesh has so many vertices
+  double hmin = 0;             ///< smallest size once it is scaled; 0: 1e-6 diagonals of the bounding box
+  double hmax = 0;             ///< largest size once it is scaled; 0: the diagonal
+
+  explicit Intersection_metric_field(MetricFields... fields_) : fields(std::move(fields_)...) {}
 };
 
 /// A formula: a function object that takes a point (`Vector_3`) and returns a size (`double`) or a `Metric_tensor_3`.
@@ -75,27 +122,160 @@ inline double diagonal_of_bounding_box(const std::vector<Vector_3>& points)
   return (high - low).norm();
 }
 
-/// Squared inverse size for a curvature, within the bounds of `field`.
-struct Curvature_sizing
+/// The bounds that a user gave for a metric that is scaled to a number of vertices, or wide ones.
+inline Size_bounds bounds_of_scaled_metric(double hmin, double hmax, double diagonal)
 {
-  double tolerance, hmin, hmax;
+  const double upper = hmax > 0 ? hmax : diagonal;
+  return Size_bounds(hmin > 0 ? hmin : (std::min)(1e-6 * diagonal, upper), upper);
+}
 
-  template <class Reference>
-  Curvature_sizing(const Curvature_metric_field& field, const Reference& reference)
-  {
-    const double diagonal = diagonal_of_bounding_box(reference.points);
-    tolerance = field.relative_tolerance * diagonal;
-    hmax = field.hmax > 0 ? field.hmax : 0.1 * diagonal;
-    hmin = field.hmin > 0 ? field.hmin : (std::min)(tolerance, hmax);
-    if (hmin > hmax) throw Invalid_parameter_error("hmin is larger than hmax");
-  }
+inline void check_anisotropy(double max_anisotropy)
+{
+  if (!(max_anisotropy >= 1)) throw Invalid_parameter_error("the largest anisotropy must be at least 1");
+}
 
-  double eigenvalue(double curvature) const
-  {
-    const double l = std::abs(curvature) / (6 * tolerance);
-    return (std::min)(1 / (hmin * hmin), (std::max)(1 / (hmax * hmax), l));
+/// Sizes or tensors as tensors.
+/// \throws Invalid_metric_error for the first that is not positive and finite, or positive definite
+template <class Execution>
+std::vector<Metric_tensor_3> checked_tensors(const Execution& execution, const std::vector<double>& sizes)
+{
+  const std::size_t bad = first_invalid(execution, sizes.size(), [&](std::size_t v) { return is_valid_size(sizes[v]); });
+  if (bad < sizes.size()) throw Invalid_metric_error(bad);
+  std::vector<Metric_tensor_3> tensors(sizes.size());
+  for_each_index(execution, sizes.size(), [&](std::size_t v) { tensors[v] = Metric_tensor_3::isotropic(sizes[v]); });
+  return tensors;
+}
+
+template <class Execution>
+const std::vector<Metric_tensor_3>& checked_tensors(const Execution& execution, const std::vector<Metric_tensor_3>& tensors)
+{
+  const std::size_t bad = first_invalid(execution, tensors.size(), [&](std::size_t v) {
+    return is_positive_definite(tensors[v]);
+  });
+  if (bad < tensors.size()) throw Invalid_metric_error(bad);
+  return tensors;
+}
+
+/// `with_vertex_metric(execution, field, imported, reference, use)` calls `use(values)` with the sizes or tensors that
+/// `field` stands for at the vertices of the reference surface.
+template <class Execution, class Import, class Reference, class Use>
+void with_vertex_metric(const Execution&, const Uniform_metric_field& field, const Import&, const Reference& reference,
+                        const Use& use)
+{
+  use(std::vector<double>(reference.points.size(), field.size));
+}
+
+template <class Execution, class Function, class Import, class Reference, class Use>
+void with_vertex_metric(const Execution& execution, const Analytic_metric_field<Function>& field, const Import&,
+                        const Reference& reference, const Use& use)
+{
+  std::vector<std::decay_t<decltype(field.function(std::declval<const Vector_3&>()))>> values(reference.points.size());
+  for_each_index(execution, values.size(), [&](std::size_t v) { values[v] = field.function(reference.points[v]); });
+  use(std::move(values));
+}
+
+/// Calls `use` with the metric of a number of vertices, or of a scale if that number is 0.
+template <class Value, class Execution, class Reference, class Use>
+void use_scaled(const Execution& execution, const Reference& reference, const Scalable_metric& metric,
+                std::size_t vertices, double scale, const Use& use)
+{
+  if (vertices > 0)
+    use(normalize_to_vertex_count<Value>(execution, reference.mesh, reference.points, reference.normals, metric,
+                                         double(vertices)));
+  else use(metric_at_scale<Value>(execution, reference.mesh, reference.points, reference.normals, metric, scale));
+}
+
+template <class Execution, class Import, class Reference, class Use>
+void with_vertex_metric(const Execution& execution, const Curvature_metric_field& field, const Import&,
+                        const Reference& reference, const Use& use)
+{
+  check_anisotropy(field.max_anisotropy);
+  const double diagonal = diagonal_of_bounding_box(reference.points), tolerance = field.relative_tolerance * diagonal;
+  const double hmax = field.hmax > 0 ? field.hmax : 0.1 * diagonal;
+  const Size_bounds bounds = field.vertices > 0 ? bounds_of_scaled_metric(field.hmin, field.hmax, diagonal)
+                                                : Size_bounds(field.hmin > 0 ? field.hmin : (std::min)(tolerance, hmax), hmax);
+  const Scalable_metric metric{curvature_tensors(execution, reference, field.anisotropic ? field.max_anisotropy : 1,
+                                                 field.noisy ? Jet_fit::noisy : Jet_fit::exact),
+                               bounds, field.gradation};
+  const double scale = 1 / (6 * tolerance);
+  if (field.anisotropic) use_scaled<Metric_tensor_3>(execution, reference, metric, field.vertices, scale, use);
+  else use_scaled<double>(execution, reference, metric, field.vertices, scale, use);
+}
+
+template <class Execution, class VertexScalarMap, class Import, class Reference, class Use>
+void with_vertex_metric(const Execution& execution, const Solution_metric_field<VertexScalarMap>& field,
+                        const Import& imported, const Reference& reference, const Use& use)
+{
+  check_anisotropy(field.max_anisotropy);
+  if (!(field.norm >= 1)) throw Invalid_parameter_error("the norm must be at least 1");
+  std::vector<double> values(imported.vertices.size());
+  for (std::size_t v = 0; v < values.size(); ++v) values[v] = CGAL::to_double(get(field.values, imported.vertices[v]));
+  const Corner_jets jets = estimate_jets(execution, reference.mesh, reference.points);
+  const Buffer<Metric_tensor_3> hessians =
+    estimate_hessians(execution, reference.mesh, reference.points, jets, values);
+  const Scalable_metric metric{
+    intersect_sectors(execution, reference.mesh, jets.of_corner, [&](Index sector) {
+      return multiscale_tensor(hessians[sector], field.norm, field.anisotropic ? field.max_anisotropy : 1);
+    }, [](Index, const auto&) {}),
+    bounds_of_scaled_metric(field.hmin, field.hmax, diagonal_of_bounding_box(reference.points)), field.gradation};
+  if (field.anisotropic) use_scaled<Metric_tensor_3>(execution, reference, metric, field.vertices, 1, use);
+  else use_scaled<double>(execution, reference, metric, field.vertices, 1, use);
+}
+
+/// Any readable property map of the vertices, with sizes or `Metric_tensor_3` as values.
+template <class Execution, class PropertyMap, class Import, class Reference, class Use>
+void with_vertex_metric(const Execution&, const PropertyMap& map, const Import& imported, const Reference&, const Use& use)
+{
+  const std::size_t n = imported.vertices.size();
+  if constexpr (std::is_same_v<typename boost::property_traits<PropertyMap>::value_type, Metric_tensor_3>) {
+    std::vector<Metric_tensor_3> tensors(n);
+    for (std::size_t v = 0; v < n; ++v) tensors[v] = get(map, imported.vertices[v]);
+    use(std::move(tensors));
+  } else {
+    std::vector<double> sizes(n);
+    for (std::size_t v = 0; v < n; ++v) sizes[v] = CGAL::to_double(get(map, imported.vertices[v]));
+    use(std::move(sizes));
   }
-};
+}
+
+template <class Field>
+auto without_gradation(Field field, int) -> decltype(void(field.gradation), Field(field))
+{
+  field.gradation = 1;
+  return field;
+}
+
+template <class Field>
+Field without_gradation(Field field, long)
+{
+  return field;
+}
+
+template <class Execution, class... Fields, class Import, class Reference, class Use>
+void with_vertex_metric(const Execution& execution, const Intersection_metric_field<Fields...>& field,
+                        const Import& imported, const Reference& reference, const Use& use)
+{
+  std::vector<std::vector<Metric_tensor_3>> asked; // by each field
+  bool anisotropic = false;
+  const auto add = [&](const auto& values) {
+    anisotropic = anisotropic || std::is_same_v<std::decay_t<decltype(values)>, std::vector<Metric_tensor_3>>;
+    asked.push_back(checked_tensors(execution, values));
+  };
+  std::apply([&](const auto&... f) {
+    (with_vertex_metric(execution, without_gradation(f, 0), imported, reference, add), ...);
+  }, field.fields);
+
+  const double diagonal = diagonal_of_bounding_box(reference.points);
+  Scalable_metric metric{std::vector<Metric_tensor_3>(reference.points.size()),
+                         bounds_of_scaled_metric(field.hmin, field.hmax, diagonal), field.gradation};
+  for_each_index(execution, metric.tensors.size(), [&](std::size_t v) {
+    Ring<Metric_tensor_3> tensors;
+    for (const auto& of_field : asked) tensors.push_back(of_field[v]);
+    metric.tensors[v] = intersection_of_all(tensors);
+  }, heavy_chunk_length);
+  if (anisotropic) use_scaled<Metric_tensor_3>(execution, reference, metric, field.vertices, 1, use);
+  else use_scaled<double>(execution, reference, metric, field.vertices, 1, use);
+}
 
 /// `with_background(execution, field, imported, reference, use)` calls `use(background)` with the metric background
 /// that `field` stands for on the reference surface.
@@ -116,45 +296,15 @@ void with_background(const Execution&, const Analytic_metric_field<Function>& fi
     use(Metric_background<Isotropic_metric>(Metric_background<Isotropic_metric>::Formula(field.function)));
 }
 
-template <class Execution, class Import, class Reference, class Use>
-void with_background(const Execution& execution, const Curvature_metric_field& field, const Import&,
-                     const Reference& reference, const Use& use)
-{
-  const Curvature_sizing sizing(field, reference);
-  const std::vector<Metric_tensor_3> curvature = curvature_tensors(execution, reference);
-  if (field.anisotropic) {
-    std::vector<Metric_tensor_3> tensors(curvature.size());
-    for_each_index(execution, curvature.size(), [&](std::size_t v) {
-      const Eigen_decomposition_3 e = eigen_decomposition(curvature[v]);
-      tensors[v] = metric_tensor(e.values.unaryExpr([&](double k) { return sizing.eigenvalue(k); }), e.vectors);
-    });
-    return use(Metric_background<Anisotropic_metric>(execution, tensors));
-  }
-  std::vector<double> sizes(curvature.size());
-  for_each_index(execution, curvature.size(), [&](std::size_t v) {
-    const double k = eigen_decomposition(curvature[v]).values.cwiseAbs().maxCoeff();
-    sizes[v] = 1 / std::sqrt(sizing.eigenvalue(k));
-  });
-  apply_gradation(execution, reference.mesh, reference.points, field.gradation, sizes);
-  use(Metric_background<Isotropic_metric>(execution, std::move(sizes)));
-}
-
-/// Any readable property map of the vertices, with sizes or `Metric_tensor_3` as values.
-template <class Execution, class PropertyMap, class Import, class Reference, class Use>
-void with_background(const Execution& execution, const PropertyMap& map, const Import& imported, const Reference&,
+template <class Execution, class Field, class Import, class Reference, class Use>
+void with_background(const Execution& execution, const Field& field, const Import& imported, const Reference& reference,
                      const Use& use)
 {
-  using Value = typename boost::property_traits<PropertyMap>::value_type;
-  const std::size_t n = imported.vertices.size();
-  if constexpr (std::is_same_v<Value, Metric_tensor_3>) {
-    std::vector<Metric_tensor_3> tensors(n);
-    for (std::size_t v = 0; v < n; ++v) tensors[v] = get(map, imported.vertices[v]);
-    use(Metric_background<Anisotropic_metric>(execution, tensors));
-  } else {
-    std::vector<double> sizes(n);
-    for (std::size_t v = 0; v < n; ++v) sizes[v] = CGAL::to_double(get(map, imported.vertices[v]));
-    use(Metric_background<Isotropic_metric>(execution, std::move(sizes)));
-  }
+  with_vertex_metric(execution, field, imported, reference, [&](auto values) {
+    using Value = typename decltype(values)::value_type;
+    using Metric = std::conditional_t<std::is_same_v<Value, Metric_tensor_3>, Anisotropic_metric, Isotropic_metric>;
+    use(Metric_background<Metric>(execution, std::move(values)));
+  });
 }
 
 } // namespace internal

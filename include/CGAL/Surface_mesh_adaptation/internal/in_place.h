@@ -115,17 +115,21 @@ void write_metric(FaceGraph& graph, const Surface& surface, const NamedParameter
   }
 }
 
-/// Calls `use()`; an error in the metric at a vertex is reported with the place of that vertex in `graph`, not with
-/// its number after the renumbering of the import.
+/// Calls `use()`; an error in the metric or field at a vertex is reported with the place of that vertex in `graph`, not
+/// with its number after the renumbering of the import.
 template <class FaceGraph, class Use>
 void with_input_numbers(const FaceGraph& graph, const Imported_mesh<FaceGraph>& imported, const Use& use)
 {
+  const auto place = [&](const Invalid_input_error& e) {
+    const auto all = vertices(graph);
+    return std::size_t(std::distance(all.begin(), std::find(all.begin(), all.end(), imported.vertices[e.index()])));
+  };
   try {
     use();
   } catch (const Invalid_metric_error& e) {
-    const auto all = vertices(graph);
-    const auto v = std::find(all.begin(), all.end(), imported.vertices[e.index()]);
-    throw Invalid_metric_error(std::size_t(std::distance(all.begin(), v)));
+    throw Invalid_metric_error(place(e));
+  } catch (const Invalid_field_error& e) {
+    throw Invalid_field_error(place(e));
   }
 }
 

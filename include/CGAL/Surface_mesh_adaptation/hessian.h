@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Second derivatives along the surface of a scalar field that is known at the vertices.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_HESSIAN_H
+#define CGAL_SURFACE_MESH_ADAPTATION_HESSIAN_H
+
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/exceptions.h>
+#include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
+#include <CGAL/Surface_mesh_adaptation/vertex_jets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+namespace internal {
+
+/// The Hessian at the source of `first`, in the sector of `n` faces with the unit normal `normal`; zero if the samples
+/// do not determine it.
+CGAL_SMA_FLATTEN inline Metric_tensor_3 hessian_of_sector(const Mesh_view& mesh, const std::vector<Vector_3>& points,
+                                                          Index first, std::size_t n, const Vector_3& normal,
+                                                          const std::vector<double>& values)
+{
+  const Metric_tensor_3 zero(0, 0, 0, 0, 0, 0);
+  Sector_neighborhood neighbors(mesh, first, n);
+  grow_for_cubic_fit(neighbors);
+  const Index v = mesh.source(first);
+  const Tangent_frame frame(points[v], normal);
+  const double radius = mean_distance(neighbors, points, frame.origin);
+  if (!(radius > 0) || !std::isfinite(1 / radius)) return zero;
+  const Cubic_fit fit = fit_over_plane(neighbors, points, frame, radius, Jet_fit::exact,
+                                       [&](Index w) { return values[w] - values[v]; });
+  Derivatives_2 f;
+  if (!fit.solve_cubic(f) && !fit.solve_quadratic(f)) return zero;
+  // what the rounding of values and coordinates explains is none
+  const double rounding = fit_rounding * (std::abs(values[v]) + f.gradient.lpNorm<Eigen::Infinity>() *
+                                                                  (1 + frame.origin.lpNorm<Eigen::Infinity>() / radius));
+  if (!f.hessian.allFinite() || f.hessian.lpNorm<Eigen::Infinity>() <= rounding) return zero;
+  Eigen::Matrix<double, 3, 2> axes;
+  axes << frame.x, frame.y;
+  return Metric_tensor_3(Matrix_3(axes * (f.hessian / (radius * radius)) * axes.transpose()));
+}
+
+} // namespace internal
+
+/// The covariant Hessian, for each smooth sector, of the field with the value `values[v]` at vertex `v`: a symmetric
+/// tensor of space (unit: that of the values / length^2) that is zero along the normal. By cubic least squares over the
+/// tangent plane on the two rings around the vertex that can be reached without crossing a feature, through the value
+/// at the vertex: of second order, at boundaries as well; quadratic where there are too few neighbours.
+///
+/// \param normals unit normals of the sectors, as `Corner_normals` or, to keep the order, `Corner_jets`; the result is
+///        indexed like `normals.normals`
+/// \pre `mesh.curve` is set (Features.h), all points are finite
+/// \throws Invalid_field_error for the first value that is not finite
+/// \complexity O(n), about 2 microseconds a vertex
+template <class Execution, class Normals>
+Buffer<Metric_tensor_3> estimate_hessians(const Execution& execution, const Mesh_view& mesh,
+                                          const std::vector<Vector_3>& points, const Normals& normals,
+                                          const std::vector<double>& values)
+{
+  const std::size_t n = values.size();
+  const std::size_t bad = reduce(execution, n, n, [&](std::size_t v) { return std::isfinite(values[v]) ? n : v; },
+                                 [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
+  if (bad < n) throw Invalid_field_error(bad);
+  Buffer<Metric_tensor_3> hessians;
+  hessians.resize(normals.normals.size());
+  for_each_index(execution, mesh.number_of_vertices(), [&](std::size_t v) {
+    internal::for_each_sector(mesh, Index(v), [&](Index first, std::size_t faces) {
+      const Index sector = normals.of_corner[first];
+      hessians[sector] =
+        internal::hessian_of_sector(mesh, points, first, faces, normals.normals[sector], values);
+    });
+  }, heavy_chunk_length);
+  return hessians;
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_HESSIAN_H

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Least squares fit of a cubic or quadratic polynomial of two variables that is zero at the origin.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_CUBIC_FIT_H
+#define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_CUBIC_FIT_H
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <cstddef>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+/// The derivatives at the origin of a function of two variables.
+struct Derivatives_2
+{
+  Eigen::Vector2d gradient;
+  Eigen::Matrix2d hessian;
+};
+
+/// Gathers samples, then solves the normal equations. Their monomials are ordered by degree, so those of the quadratic
+/// fit are a block of those of the cubic one: both come from the same sums.
+/// Coordinates should be scaled to the order of 1.
+class Cubic_fit
+{
+public:
+  Cubic_fit() : matrix_(Matrix::Zero()), right_hand_side_(Row::Zero()) {}
+
+  void add(double x, double y, double value, double weight)
+  {
+    Row row;
+    row << x, y, x * x / 2, x * y, y * y / 2, x * x * x, x * x * y, x * y * y, y * y * y;
+    for (int j = 0; j < size; ++j) {
+      const double wj = weight * row[j];
+      right_hand_side_[j] += wj * value;
+      for (int i = j; i < size; ++i) matrix_(i, j) += wj * row[i];
+    }
+    ++samples_;
+  }
+
+  std::size_t number_of_samples() const { return samples_; }
+
+  /// Whether there are samples enough, and well enough spread, for the fit of this degree; if so, sets `result`.
+  bool solve_cubic(Derivatives_2& result) const { return samples_ >= 14 && solve<9>(result); }
+  bool solve_quadratic(Derivatives_2& result) const { return samples_ >= 6 && solve<5>(result); }
+
+private:
+  static constexpr int size = 9;
+  using Matrix = Eigen::Matrix<double, size, size>;
+  using Row = Eigen::Matrix<double, size, 1>;
+
+  /// The least square of the sine of the angle between a column of the problem and the span of those before it.
+  static constexpr double least_pivot = 1e-5;
+
+  template <int n>
+  bool solve(Derivatives_2& result) const
+  {
+    using Vector = Eigen::Matrix<double, n, 1>;
+    const Vector scale = matrix_.template topLeftCorner<n, n>().diagonal().cwiseSqrt();
+    if (!(scale.minCoeff() > 0)) return false;
+    const Vector inverse = scale.cwiseInverse();
+    Eigen::Matrix<double, n, n> a =
+      inverse.asDiagonal() * matrix_.template topLeftCorner<n, n>() * inverse.asDiagonal();
+    const Eigen::LLT<Eigen::Ref<Eigen::Matrix<double, n, n>>, Eigen::Lower> factors(a);
+    if (factors.info() != Eigen::Success || !(a.diagonal().cwiseAbs2().minCoeff() > least_pivot)) return false;
+    const Vector c =
+      inverse.cwiseProduct(factors.solve(inverse.cwiseProduct(right_hand_side_.template head<n>()))).eval();
+    result.gradient << c[0], c[1];
+    result.hessian << c[2], c[3], c[3], c[4];
+    return true;
+  }
+
+  Matrix matrix_; // its lower triangle
+  Row right_hand_side_;
+  std::size_t samples_ = 0;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_CUBIC_FIT_H

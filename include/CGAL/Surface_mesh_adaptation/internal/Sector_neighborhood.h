@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The vertices around a vertex, ring by ring, on its own side of the features: what a local fit is made from.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_SECTOR_NEIGHBORHOOD_H
+#define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_SECTOR_NEIGHBORHOOD_H
+
+#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+
+#include <boost/container/small_vector.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+/// The neighbourhood of a smooth sector of a vertex: what can be reached from its faces over faces that share a vertex,
+/// without crossing a feature edge or the boundary. The vertex itself does not belong to it.
+class Sector_neighborhood
+{
+public:
+  /// The first ring: the neighbours of the source of `first` in the `n` faces of its sector from that of `first` on.
+  Sector_neighborhood(const Mesh_view& mesh, Index first, std::size_t n) : mesh_(mesh), center_(mesh.source(first))
+  {
+    append(Mesh_view::next(first));
+    for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h))
+      if (mesh.apex(h) != vertices_[0]) append(Mesh_view::previous(h));
+  }
+
+  std::size_t size() const { return vertices_.size(); }
+  Index operator[](std::size_t i) const { return vertices_[i]; }
+
+  /// Adds the next ring. A hub has neighbours enough: then nothing is added.
+  void grow()
+  {
+    if (size() >= hub_degree) return;
+    const std::size_t begin = last_ring_, end = size();
+    last_ring_ = end;
+    for (std::size_t i = begin; i < end; ++i) add_fan(corners_[i]);
+  }
+
+private:
+  static constexpr std::size_t hub_degree = 32;
+  static constexpr int longest_walk = 6; // faces each way: the whole fan of usual vertices, what is near of a hub's
+
+  /// Adds the vertices of the faces around the source of `h`, from the face of `h` both ways to the next feature.
+  void add_fan(Index h)
+  {
+    add(Mesh_view::next(h));
+    add(Mesh_view::previous(h));
+    Index g = h;
+    for (int i = 0; i < longest_walk && can_cross(Mesh_view::previous(g)); ++i) {
+      g = mesh_.rotated_ccw(g);
+      if (g == h) return;
+      add(Mesh_view::previous(g));
+    }
+    g = h;
+    for (int i = 0; i < longest_walk && can_cross(g); ++i) {
+      g = mesh_.rotated_cw(g);
+      if (g == h) return;
+      add(Mesh_view::next(g));
+    }
+  }
+
+  bool can_cross(Index h) const { return !mesh_.is_feature(h) && !mesh_.is_border(h); }
+
+  void add(Index corner)
+  {
+    const Index v = mesh_.source(corner);
+    if (v != center_ && std::find(vertices_.begin(), vertices_.end(), v) == vertices_.end()) append(corner);
+  }
+
+  void append(Index corner)
+  {
+    corners_.push_back(corner);
+    vertices_.push_back(mesh_.source(corner));
+  }
+
+  const Mesh_view& mesh_;
+  Index center_;
+  std::size_t last_ring_ = 0;
+  boost::container::small_vector<Index, 48> vertices_, corners_; // corner: one of the vertex, in the neighbourhood
+};
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_SECTOR_NEIGHBORHOOD_H

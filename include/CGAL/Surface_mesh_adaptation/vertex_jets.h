@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Normals and shape operators at the vertices, one per smooth sector, by local polynomial fits. They decide the order
+// of whatever is built on them: a patch of fourth order needs normals of third order.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_VERTEX_JETS_H
+#define CGAL_SURFACE_MESH_ADAPTATION_VERTEX_JETS_H
+
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Cubic_fit.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Sector_neighborhood.h>
+#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
+#include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
+#include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
+
+#include <Eigen/Cholesky>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// What the points are taken for.
+enum class Jet_fit
+{
+  exact, ///< points of the surface: cubic fits
+  noisy  ///< points next to the surface: normals of quadratic fits, shape operators from these normals
+};
+
+/// A unit normal and a shape operator at every corner of every face, shared by the corners of a smooth sector.
+///
+/// The shape operator is `S = dn`, the derivative of the normal along the surface, as a symmetric tensor of space with
+/// `S n = 0`: on a sphere of radius r with outer normals it is `(I - n n^T) / r`. Unit: 1 / length.
+struct Corner_jets
+{
+  Buffer<Vector_3> normals;
+  Buffer<Metric_tensor_3> shape_operators;
+  Buffer<Index> of_corner;  ///< index into both for each corner
+
+  /// How many sectors were settled by which fit; the rest has the normal of Max and what the normals around say.
+  std::size_t cubic_fits = 0, quadratic_fits = 0, fallbacks = 0;
+
+  struct Jet
+  {
+    const Vector_3& normal;
+    const Metric_tensor_3& shape_operator;
+  };
+
+  Jet at(Index corner) const { return {normals[of_corner[corner]], shape_operators[of_corner[corner]]}; }
+};
+
+namespace internal {
+
+/// A point of a surface with a first guess of its normal, and orthonormal axes of the plane across it.
+struct Tangent_frame
+{
+  Vector_3 origin, x, y, n;
+
+  Tangent_frame(const Vector_3& origin_, const Vector_3& normal)
+    : origin(origin_), x(normal.unitOrthogonal()), y(normal.cross(x)), n(normal)
+  {}
+};
+
+/// Rings enough for a cubic fit, where the mesh is large enough: two, and up to two more at boundaries and features.
+inline void grow_for_cubic_fit(Sector_neighborhood& neighbors)
+{
+  neighbors.grow();
+  for (int ring = 2; ring < 4 && neighbors.size() < 14; ++ring) neighbors.grow();
+}
+
+/// Mean distance of `neighbors` from `origin`: the unit of length of a fit.
+inline double mean_distance(const Sector_neighborhood& neighbors, const std::vector<Vector_3>& points,
+                            const Vector_3& origin)
+{
+  double sum = 0;
+  for (std::size_t i = 0; i < neighbors.size(); ++i) sum += (points[neighbors[i]] - origin).norm();
+  return sum / double(neighbors.size());
+}
+
+/// Weight of a sample at the squared distance `d2` from the origin, in units of the mean distance. Measured: for exact
+/// samples near ones should count more (the largest error of the normals is 1.4 times smaller than with equal weights),
+/// for noisy ones all the same.
+inline double fit_weight(double d2, Jet_fit samples) { return samples == Jet_fit::exact ? 1 / (0.1 + d2) : 1; }
+
+/// The fit of `value(w)`, a function of the vertex that is zero at the origin, over the plane of `frame`, with `radius`
+/// as unit of length.
+template <class Value>
+Cubic_fit fit_over_plane(const Sector_neighborhood& neighbors, const std::vector<Vector_3>& points,
+                         const Tangent_frame& frame, double radius, Jet_fit samples, const Value& value)
+{
+  Cubic_fit fit;
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    const Vector_3 d = (points[neighbors[i]] - frame.origin) / radius;
+    fit.add(d.dot(frame.x), d.dot(frame.y), value(neighbors[i]), fit_weight(d.squaredNorm(), samples));
+  }
+  return fit;
+}
+
+/// Relative error of the samples of a fit times what the fit makes of it.
+constexpr double fit_rounding = 1e-14;
+
+struct Jet_of_sector
+{
+  Vector_3 normal;
+  Metric_tensor_3 shape_operator;
+};
+
+/// The normal and shape operator at the origin of the graph over `frame` with the derivatives `f`, of which the unit of
+/// length is `radius`: with `J` the tangent vectors along the axes, `G = J^T J` and `H` the hessian,
+/// `S = -J G^-1 H G^-1 J^T / sqrt(1 + |grad|^2)`.
+inline Jet_of_sector jet_of_graph(const Tangent_frame& frame, const Derivatives_2& f, double radius)
+{
+  const double slope2 = f.gradient.squaredNorm(), w = std::sqrt(1 + slope2);
+  Eigen::Matrix<double, 3, 2> tangents;
+  tangents << frame.x + f.gradient[0] * frame.n, frame.y + f.gradient[1] * frame.n;
+  // G = I + g g^T, hence G^-1 = I - g g^T / (1 + g^2)
+  const Eigen::Matrix2d inverse = Eigen::Matrix2d::Identity() - f.gradient * f.gradient.transpose() / (1 + slope2);
+  const Eigen::Matrix<double, 3, 2> dual = tangents * inverse;
+  return {(frame.n - f.gradient[0] * frame.x - f.gradient[1] * frame.y) / w,
+          Metric_tensor_3(Matrix_3(dual * f.hessian * dual.transpose() * (-1 / (w * radius))))};
+}
+
+enum class Fit_degree : std::uint8_t { none, quadratic, cubic };
+
+/// The fit over the neighbourhood of a sector with the normal `normal` of Max: of the highest degree that has samples
+/// enough and a normal within 30 degrees of `normal`; if there is none, `jet` stays.
+CGAL_SMA_FLATTEN inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first,
+                                           std::size_t n, const Vector_3& normal, Jet_fit samples, Jet_of_sector& jet)
+{
+  Sector_neighborhood neighbors(mesh, first, n);
+  grow_for_cubic_fit(neighbors);
+  const Tangent_frame frame(points[mesh.source(first)], normal);
+  const double radius = mean_distance(neighbors, points, frame.origin);
+  if (!(radius > 0) || !std::isfinite(1 / radius)) return Fit_degree::none;
+  const Cubic_fit fit = fit_over_plane(neighbors, points, frame, radius, samples, [&](Index w) {
+    return (points[w] - frame.origin).dot(normal) / radius;
+  });
+  constexpr double largest_squared_slope = 1.0 / 3; // tan(30 degrees)^2
+  Derivatives_2 f;
+  // second derivatives that the rounding of the coordinates explains are none
+  const double rounding = fit_rounding * frame.origin.lpNorm<Eigen::Infinity>() / radius;
+  const auto accept = [&](bool solved) {
+    if (!solved || !(f.gradient.squaredNorm() <= largest_squared_slope) || !f.hessian.allFinite()) return false;
+    if (f.hessian.lpNorm<Eigen::Infinity>() <= rounding) f.hessian.setZero();
+    jet = jet_of_graph(frame, f, radius);
+    return true;
+  };
+  if (samples == Jet_fit::exact && accept(fit.solve_cubic(f))) return Fit_degree::cubic;
+  return accept(fit.solve_quadratic(f)) ? Fit_degree::quadratic : Fit_degree::none;
+}
+
+/// The shape operator of a face as a tensor of space: the symmetric map that takes, in the sense of least squares,
+/// each edge to the difference of the normals at its ends (Rusinkiewicz 2004). Zero for degenerate faces.
+inline Metric_tensor_3 shape_operator_of_face(const std::array<Vector_3, 3>& p, const std::array<Vector_3, 3>& n)
+{
+  const Metric_tensor_3 zero(0, 0, 0, 0, 0, 0);
+  const Vector_3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
+  if (!(normal.squaredNorm() > 0)) return zero;
+  const Vector_3 u = (p[1] - p[0]).normalized(), v = normal.normalized().cross(u);
+  Matrix_3 a = Matrix_3::Zero();
+  Vector_3 b = Vector_3::Zero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector_3 e = p[(i + 1) % 3] - p[i], dn = n[(i + 1) % 3] - n[i];
+    const double x = e.dot(u), y = e.dot(v);
+    Eigen::Matrix<double, 2, 3> rows;
+    rows << x, y, 0, 0, x, y;
+    a += rows.transpose() * rows;
+    b += rows.transpose() * Eigen::Vector2d(dn.dot(u), dn.dot(v));
+  }
+  const Vector_3 s = a.ldlt().solve(b);
+  if (!s.allFinite()) return zero;
+  return Metric_tensor_3(Matrix_3(s[0] * u * u.transpose() + s[1] * (u * v.transpose() + v * u.transpose()) +
+                                  s[2] * v * v.transpose()));
+}
+
+/// The mean of the shape operators of the faces of a sector, weighted by area, each carried to the tangent plane; zero
+/// if it is what the rounding of coordinates and normals explains.
+inline Metric_tensor_3 mean_shape_operator(const Mesh_view& mesh, const std::vector<Vector_3>& points,
+                                           const Corner_jets& jets, Index first, std::size_t n_faces)
+{
+  const Vector_3& normal = jets.normals[jets.of_corner[first]];
+  Metric_tensor_3 sum(0, 0, 0, 0, 0, 0);
+  double weight = 0;
+  Index h = first;
+  for (std::size_t i = 0; i < n_faces; ++i, h = mesh.rotated_ccw(h)) {
+    const std::array<Index, 3> corners{h, Mesh_view::next(h), Mesh_view::previous(h)};
+    std::array<Vector_3, 3> p, normals;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = points[mesh.corner[corners[k]]];
+      normals[k] = jets.normals[jets.of_corner[corners[k]]];
+    }
+    const Vector_3 across = (p[1] - p[0]).cross(p[2] - p[0]);
+    const double area = across.norm();
+    if (!(area > 0)) continue;
+    sum += area * rotated(shape_operator_of_face(p, normals), minimal_rotation(across / area, normal));
+    weight += area;
+  }
+  const double faces = double(n_faces), area = weight / faces;
+  const double rounding = fit_rounding * (points[mesh.source(first)].lpNorm<Eigen::Infinity>() + std::sqrt(area));
+  if (!(sum.matrix().lpNorm<Eigen::Infinity>() > faces * rounding)) return Metric_tensor_3(0, 0, 0, 0, 0, 0);
+  return (1 / weight) * sum;
+}
+
+} // namespace internal
+
+/// Estimates the normals and shape operators of all sectors from the points alone, each by a height function over the
+/// plane across the normal of Max (Cazals, Pouget 2005) through the vertex, fitted to the two rings around it that can
+/// be reached without crossing a feature: cubic, with normals of third and shape operators of second order in the
+/// length of the edges. A fit with too few or ill spread neighbours, or with a normal more than 30 degrees off, falls
+/// back to the quadratic one of the same samples, then to the normal of Max with the shape operators of the faces
+/// around (Rusinkiewicz 2004), which are also those of `Jet_fit::noisy`. Always finite.
+///
+/// \pre `mesh.curve` is set (Features.h), all points are finite
+/// \complexity O(n), about 2 microseconds a vertex
+template <class Execution>
+Corner_jets estimate_jets(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
+                          Jet_fit samples = Jet_fit::exact)
+{
+  using internal::Fit_degree;
+  Corner_normals start = estimate_normals(execution, mesh, points);
+  Corner_jets jets;
+  jets.normals = std::move(start.normals);
+  jets.of_corner = std::move(start.of_corner);
+  jets.shape_operators.resize(jets.normals.size());
+  Buffer<Fit_degree> degree(jets.normals.size());
+  const auto for_each_sector = [&](const auto& f) {
+    for_each_index(execution, mesh.number_of_vertices(), [&](std::size_t v) {
+      internal::for_each_sector(mesh, Index(v), [&](Index first, std::size_t n) { f(jets.of_corner[first], first, n); });
+    }, heavy_chunk_length);
+  };
+  for_each_sector([&](Index id, Index first, std::size_t n) {
+    internal::Jet_of_sector jet{jets.normals[id], Metric_tensor_3(0, 0, 0, 0, 0, 0)};
+    degree[id] = internal::fit_jet(mesh, points, first, n, jet.normal, samples, jet);
+    jets.normals[id] = jet.normal;
+    jets.shape_operators[id] = jet.shape_operator;
+  });
+  for_each_sector([&](Index id, Index first, std::size_t n) {
+    if (degree[id] == Fit_degree::none || samples == Jet_fit::noisy)
+      jets.shape_operators[id] = internal::mean_shape_operator(mesh, points, jets, first, n);
+  });
+  const auto count = [&](Fit_degree d) {
+    return count_if(execution, degree.size(), [&](std::size_t i) { return degree[i] == d; });
+  };
+  jets.cubic_fits = count(Fit_degree::cubic);
+  jets.quadratic_fits = count(Fit_degree::quadratic);
+  jets.fallbacks = count(Fit_degree::none);
+  return jets;
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_VERTEX_JETS_H
