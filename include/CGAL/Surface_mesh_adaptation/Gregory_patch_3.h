@@ -27,7 +27,7 @@ namespace Surface_mesh_adaptation {
 /// the parameter. Both depend on the ends of the edge alone, which is all that the continuity needs.
 ///
 /// Where the corners say too little about the surface the patch falls back, and says so: an edge to its chord
-/// (`Curve::straight`) if a normal leaves the plane across the edge by more than 45 degrees or the normals are more
+/// (`Curve::straight`) if a normal leaves the plane across the edge by more than 35 degrees or the normals are more
 /// than 120 degrees apart, the interior to that of a cubic triangle (`Interior::cubic`) if a normal is more than 30
 /// degrees off that of the facet, or if that is a sliver. The former follows from the ends of the edge, so that
 /// neighbours still meet; the latter gives up the common tangent planes.

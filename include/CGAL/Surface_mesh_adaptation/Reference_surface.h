@@ -9,6 +9,9 @@
 
 #include <CGAL/Surface_mesh_adaptation/Features.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/feature_normals.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Lazy_jets.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Patch_cache.h>
 #include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/surface_reconstruction.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
@@ -16,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -38,7 +42,7 @@ public:
   Mesh_view mesh;
   std::vector<Vector_3> points;
   Features features;
-  Corner_normals normals;
+  Corner_normals normals;  ///< of Max: a first estimate; patches have those of jets
 
   /// Takes over the mesh, detects its features and estimates its normals.
   template <class Execution>
@@ -47,7 +51,10 @@ public:
     : mesh(std::move(mesh_)), points(std::move(points_))
     , features(detect_features(execution, mesh, points, parameters))
     , normals(estimate_normals(execution, mesh, points))
-  {}
+    , jets_(execution, normals.normals.size())
+  {
+    orthogonalize_normals(execution, mesh, features, normals);
+  }
 
   /// The location of vertex `v` of the reference.
   Location location_of_vertex(Index v) const
@@ -69,7 +76,10 @@ public:
     const std::size_t h = 3 * std::size_t(f);
     for (std::size_t i = 0; i < 3; ++i) {
       p.points[i] = points[mesh.corner[h + i]];
-      p.normals[i] = normals.at(Index(h + i));
+      const internal::Jet jet = jet_at(Index(h + i));
+      p.normals[i] = jet.normal;
+      p.shape_operators[i] = jet.shape_operator;
+      p.has_shape_operator[i] = jet.has_shape_operator;
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const Index curve = mesh.curve[h + i];
@@ -85,7 +95,8 @@ public:
   Surface_point evaluate(const Location& l) const
   {
     switch (l.kind) {
-    case Vertex_class::smooth: return Reconstruction::evaluate(patch(l.cell), l.u, l.v);
+    case Vertex_class::smooth:
+      return Cache::at(id_, l.cell, [&] { return patch(l.cell); }).evaluate(l.u, l.v);
     case Vertex_class::curve: return {curve_point(features.curves[l.cell], l.u), Vector_3::Zero()};
     default: return {points[l.cell], Vector_3::Zero()};
     }
@@ -207,6 +218,15 @@ public:
   }
 
 private:
+  using Cache = internal::Patch_cache<Reconstruction>;
+
+  internal::Jet jet_at(Index h) const
+  {
+    return jets_.at(normals.of_corner[h], [&] {
+      return internal::estimate_jet(mesh, points, features, normals, h);
+    });
+  }
+
   static constexpr int max_crossings = 256; // a path this long means a metric far coarser than the reference
   static constexpr int max_corrections = 4; // each one squares the error of a smooth surface
 
@@ -305,6 +325,9 @@ private:
     const double sum = (std::max)(1.0, u + v);
     return {Vertex_class::smooth, f, u / sum, v / sum};
   }
+
+  internal::Lazy_jets jets_;
+  std::uint64_t id_ = internal::unique_surface_id();
 };
 
 } // namespace Surface_mesh_adaptation

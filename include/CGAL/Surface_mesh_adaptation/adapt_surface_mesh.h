@@ -64,7 +64,7 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNBegin{surface_reconstruction}
     \cgalParamDescription{the surface between the vertices of the input}
     \cgalParamType{a model of `SurfaceReconstruction`}
-    \cgalParamDefault{`PN_triangle_reconstruction`}
+    \cgalParamDefault{`Gregory_reconstruction`}
   \cgalParamNEnd
   \cgalParamNBegin{output_metric_map}
     \cgalParamDescription{where the metric at the vertices of the result is written}

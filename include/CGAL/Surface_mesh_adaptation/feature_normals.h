@@ -29,6 +29,20 @@ inline Vector_3 orthogonalized_normal(const Vector_3& normal, const Vector_3& s,
   return n.squaredNorm() > 0 ? Vector_3(n.normalized()) : normal;
 }
 
+/// `normal` made orthogonal to the tangents of the feature curves that bound the sector of the `n` faces from `first`
+/// on, counterclockwise; as it is if there are none.
+inline Vector_3 normal_on_features(const Mesh_view& mesh, const Features& features, Index first, std::size_t n,
+                                   const Vector_3& normal)
+{
+  const Index v = mesh.source(first);
+  if (features.vertex_class[v] == Vertex_class::smooth || !mesh.is_feature(first)) return normal;
+  Index last = first;
+  for (std::size_t i = 1; i < n; ++i) last = mesh.rotated_ccw(last);
+  last = Mesh_view::previous(last); // towards the vertex, along the other curve
+  return orthogonalized_normal(normal, features.tangent(mesh.curve[first], v, mesh.target(first)),
+                               features.tangent(mesh.curve[last], v, mesh.source(last)));
+}
+
 /// Makes the normal of every smooth sector orthogonal to the tangents of the feature curves that bound it, as
 /// tangent planes common to the patches of the sector require. Writes only normals of feature vertices.
 /// \pre `features` are those of `mesh`, and `normals` one for each of its sectors
@@ -39,13 +53,8 @@ void orthogonalize_normals(const Execution& execution, const Mesh_view& mesh, co
   for_each_index(execution, mesh.number_of_vertices(), [&](std::size_t v) {
     if (features.vertex_class[v] == Vertex_class::smooth) return;
     internal::for_each_sector(mesh, Index(v), [&](Index first, std::size_t n) {
-      if (!mesh.is_feature(first)) return; // a corner that no curve ends in
-      Index last = first;
-      for (std::size_t i = 1; i < n; ++i) last = mesh.rotated_ccw(last);
       Vector_3& normal = normals.normals[normals.of_corner[first]];
-      last = Mesh_view::previous(last); // towards the vertex, along the other curve
-      normal = orthogonalized_normal(normal, features.tangent(mesh.curve[first], Index(v), mesh.target(first)),
-                                     features.tangent(mesh.curve[last], Index(v), mesh.source(last)));
+      normal = normal_on_features(mesh, features, first, n, normal);
     });
   });
 }

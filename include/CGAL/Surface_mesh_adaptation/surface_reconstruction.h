@@ -110,6 +110,11 @@ private:
 template <Gregory_patch_3::Construction construction = Gregory_patch_3::Construction::mid_edge>
 struct Basic_gregory_reconstruction
 {
+  struct Prepared_patch : Gregory_patch_3
+  {
+    explicit Prepared_patch(const Patch& p) : Gregory_patch_3(p, construction) {}
+  };
+
   CGAL_SMA_FLATTEN static Surface_point evaluate(const Patch& p, double u, double v)
   {
     return Gregory_patch_3(p, construction).evaluate(u, v);

@@ -139,7 +139,7 @@ Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, cons
                                  const NamedParameters& np, const Kernels& kernels)
 {
   using Reconstruction = std::decay_t<decltype(
-    choose(np, internal_np::surface_reconstruction, PN_triangle_reconstruction()))>;
+    choose(np, internal_np::surface_reconstruction, Gregory_reconstruction()))>;
   const Any_execution execution(policy);
   const auto points = point_map(graph, np);
   auto imported = read_face_graph(execution, graph, points);

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Jets of the sectors of a mesh (vertex_jets.h), each estimated when it is first asked for: where a mesh stays as it is,
+// none are.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_LAZY_JETS_H
+#define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_LAZY_JETS_H
+
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/Features.h>
+#include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/feature_normals.h>
+#include <CGAL/Surface_mesh_adaptation/vertex_jets.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+struct Jet
+{
+  Vector_3 normal;
+  Metric_tensor_3 shape_operator;
+  bool has_shape_operator;
+};
+
+class Lazy_jets
+{
+public:
+  template <class Execution>
+  Lazy_jets(const Execution& execution, std::size_t number_of_sectors)
+    : jets_(number_of_sectors), state_(new std::atomic<std::uint8_t>[number_of_sectors])
+  {
+    for_each_index(execution, number_of_sectors, [&](std::size_t i) {
+      state_[i].store(empty, std::memory_order_relaxed);
+    }, fill_chunk_length);
+  }
+
+  /// The jet of `sector`, which `estimate()` returns. Threads that ask at the same time may all estimate it, to the same
+  /// bits.
+  template <class Estimate>
+  Jet at(Index sector, const Estimate& estimate) const
+  {
+    std::atomic<std::uint8_t>& state = state_[sector];
+    if (state.load(std::memory_order_acquire) == ready) return jets_[sector];
+    const Jet jet = estimate();
+    std::uint8_t expected = empty;
+    if (state.compare_exchange_strong(expected, busy, std::memory_order_relaxed)) {
+      jets_[sector] = jet;
+      state.store(ready, std::memory_order_release);
+    }
+    return jet;
+  }
+
+private:
+  static constexpr std::uint8_t empty = 0, busy = 1, ready = 2;
+
+  mutable Buffer<Jet> jets_;
+  std::unique_ptr<std::atomic<std::uint8_t>[]> state_;
+};
+
+/// The jet of the sector that the corner `h` belongs to, with the normal of Max and without a shape operator where no fit
+/// is good enough.
+inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Features& features,
+                        const Corner_normals& normals, Index h)
+{
+  const Index v = mesh.source(h), sector = normals.of_corner[h];
+  Jet jet{normals.normals[sector], Metric_tensor_3(0, 0, 0, 0, 0, 0), false};
+  for_each_sector(mesh, v, [&](Index first, std::size_t n) {
+    if (normals.of_corner[first] != sector) return;
+    Jet_of_sector fit{jet.normal, jet.shape_operator};
+    if (fit_jet(mesh, points, first, n, jet.normal, Jet_fit::exact, fit) != Fit_degree::none)
+      jet = {fit.normal, fit.shape_operator, true};
+    jet.normal = normal_on_features(mesh, features, first, n, jet.normal);
+  });
+  return jet;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_LAZY_JETS_H
