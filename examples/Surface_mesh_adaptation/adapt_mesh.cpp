@@ -97,21 +97,63 @@ void check_files(const Options& options)
 {
   for (const std::string& file : {options.input, options.output})
     if (!is_mesh_format(file)) throw Usage_error(file + ": the format must be off, obj, ply, stl or mesh");
-  for (const std::string& file : {options.metric, options.output_metric})
+  for (const std::string& file : {options.metric, options.field, options.output_metric})
     if (!file.empty() && extension(file) != "sol") throw Usage_error(file + ": the format must be sol");
   if (!options.report.empty() && (options.report == options.output || options.report == options.output_metric))
     throw Usage_error(options.report + ": the same name for two outputs");
-  if (!options.metric.empty() && extension(options.input) == "stl")
-    throw Usage_error("--metric needs vertices that are numbered, and those of an stl file are not");
+  if ((!options.metric.empty() || !options.field.empty()) && extension(options.input) == "stl")
+    throw Usage_error("--metric and --field need vertices that are numbered, and those of an stl file are not");
+}
+
+/// Sets what the options say of any metric that is made from data.
+template <class Field>
+Field configured(const Options& options, Field field)
+{
+  field.hmin = options.hmin;
+  field.hmax = options.hmax;
+  if (options.gradation) field.gradation = *options.gradation;
+  return field;
 }
 
 SMA::Curvature_metric_field curvature_field(const Options& options)
 {
-  SMA::Curvature_metric_field field(options.curvature);
-  field.hmin = options.hmin;
-  field.hmax = options.hmax;
+  constexpr double any_tolerance = 0.001; // with a number of vertices the tolerance follows from it
+  auto field = configured(options, SMA::Curvature_metric_field(options.curvature > 0 ? options.curvature : any_tolerance));
+  field.anisotropic = options.anisotropic;
+  if (options.curvature == 0) field.vertices = std::size_t(options.vertices);
+  return field;
+}
+
+auto solution_field(const Options& options, Constrained_mesh& mesh)
+{
+  const SMA::Medit_solution values = reading(options.field, [&] { return read_scalars(options.field, mesh); });
+  auto field = configured(options, SMA::Solution_metric_field(scalar_map(values, mesh), std::size_t(options.vertices)));
+  field.norm = options.norm.value_or(field.norm);
   field.anisotropic = options.anisotropic;
   return field;
+}
+
+/// What several fields ask for, or one that is to be scaled or graded.
+template <class... Fields>
+auto intersection(const Options& options, const Fields&... fields)
+{
+  auto field = configured(options, SMA::Intersection_metric_field(fields...));
+  if (!options.gradation && !options.metric.empty()) field.gradation = 1;
+  field.vertices = std::size_t(options.vertices);
+  return field;
+}
+
+/// Calls `adapt(field)` with the metric of a file.
+template <class Adapt>
+SMA::Adaptation_report with_metric_of_file(const Options& options, Constrained_mesh& mesh, const Adapt& adapt)
+{
+  const SMA::Medit_solution metric = reading(options.metric, [&] { return read_metric(options.metric, mesh); });
+  const Size_bounds bounds(options.hmin, options.hmax);
+  const auto adapt_to = [&](const auto& map) {
+    return options.vertices > 0 || options.gradation ? adapt(intersection(options, map)) : adapt(map);
+  };
+  return metric.components == 1 ? adapt_to(reading(options.metric, [&] { return size_map(metric, mesh, bounds); }))
+                                : adapt_to(reading(options.metric, [&] { return tensor_map(metric, mesh, bounds); }));
 }
 
 /// Calls `adapt(field)` with the metric field that the options ask for.
@@ -119,12 +161,10 @@ template <class Adapt>
 SMA::Adaptation_report with_metric_field(const Options& options, Constrained_mesh& mesh, const Adapt& adapt)
 {
   if (options.size > 0) return adapt(SMA::Uniform_metric_field(options.size));
-  if (options.curvature > 0) return adapt(curvature_field(options));
-
-  const SMA::Medit_solution metric = reading(options.metric, [&] { return read_metric(options.metric, mesh); });
-  const Size_bounds bounds(options.hmin, options.hmax);
-  return metric.components == 1 ? adapt(reading(options.metric, [&] { return size_map(metric, mesh, bounds); }))
-                                : adapt(reading(options.metric, [&] { return tensor_map(metric, mesh, bounds); }));
+  if (!options.metric.empty()) return with_metric_of_file(options, mesh, adapt);
+  if (options.field.empty()) return adapt(curvature_field(options));
+  const auto solution = solution_field(options, mesh);
+  return options.curvature > 0 ? adapt(intersection(options, solution, curvature_field(options))) : adapt(solution);
 }
 
 template <class Execution>

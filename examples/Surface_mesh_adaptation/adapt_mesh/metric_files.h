@@ -59,6 +59,22 @@ inline SMA::Medit_solution read_metric(const std::string& file, const Constraine
   return metric;
 }
 
+/// Reads one value for each vertex of `mesh`. \throws Io_error
+inline SMA::Medit_solution read_scalars(const std::string& file, const Constrained_mesh& mesh)
+{
+  SMA::Medit_solution values = read_metric(file, mesh);
+  if (values.components != 1) throw SMA::Io_error(file, 0, "a field has one value at each vertex");
+  return values;
+}
+
+inline Mesh::Property_map<Vertex, double> scalar_map(const SMA::Medit_solution& field, Constrained_mesh& mesh)
+{
+  auto map = mesh.mesh.add_property_map<Vertex, double>("v:field").first;
+  for (std::size_t i = 0; i < mesh.vertex_of_point.size(); ++i)
+    if (mesh.vertex_of_point[i] != Mesh::null_vertex()) put(map, mesh.vertex_of_point[i], field.values[i]);
+  return map;
+}
+
 /// Stores the value that `value_of(i)` has for the i-th point of the file at its vertex, within bounds.
 /// \throws Invalid_metric_error
 template <class Value, class ValueOfPoint>

@@ -29,7 +29,11 @@ struct Options
   double size = 0; ///< 0 if not given, like all numbers here
   double curvature = 0;
   std::string metric; ///< a file, empty if not given
+  std::string field;  ///< the same
+  std::optional<double> norm; ///< p of L^p, may be infinite
   bool anisotropic = false;
+  int vertices = 0;
+  std::optional<double> gradation;
   double hmin = 0;
   double hmax = 0;
   std::optional<double> feature_angle; ///< in degrees
@@ -59,13 +63,20 @@ inline po::options_description described_options(Options& o)
      "sizes from the curvature, which aim at a distance to the surface of EPS times the diagonal of the bounding box")
     ("metric", po::value(&o.metric)->value_name("FILE.sol"),
      "sizes (1 value) or tensors (6 values: xx xy yy xz yz zz) at the vertices of the input")
-    ("field", po::value<std::string>()->value_name("FILE.sol"),
-     "scalar field at the vertices of the input (not available yet)")
-    ("anisotropic", po::bool_switch(&o.anisotropic), "keep the directions of the curvature")
-    ("vertices", po::value<std::string>()->value_name("N"), "target number of vertices (not available yet)")
-    ("hmin", po::value(&o.hmin)->value_name("H"), "lower bound on the sizes of --curvature and --metric")
-    ("hmax", po::value(&o.hmax)->value_name("H"), "upper bound on the sizes of --curvature and --metric")
-    ("gradation", po::value<std::string>()->value_name("R"), "bound on the growth of the sizes (not available yet)")
+    ("field", po::value(&o.field)->value_name("FILE.sol"),
+     "values at the vertices of the input, of which the interpolation error is to be as small as --vertices allow; with "
+     "--curvature: the intersection of both")
+    ("norm", po::value<double>()->value_name("P")->notifier([&](double p) { o.norm = p; }),
+     "the L^P norm in which --field measures the error, 1 to inf (default: 2)")
+    ("anisotropic", po::bool_switch(&o.anisotropic), "stretch the faces along the directions in which the curvature or the field varies less")
+    ("vertices", po::value(&o.vertices)->value_name("N"),
+     "number of vertices to aim at: with sizes from the curvature if nothing else is given, else with those of --field "
+     "or --metric, scaled")
+    ("hmin", po::value(&o.hmin)->value_name("H"), "lower bound on the sizes")
+    ("hmax", po::value(&o.hmax)->value_name("H"), "upper bound on the sizes")
+    ("gradation", po::value<double>()->value_name("R")->notifier([&](double r) { o.gradation = r; }),
+     "the sizes at two points one size apart differ by at most this factor; 1: no bound (default: 1.5, no bound for "
+     "--metric)")
     ("feature-angle", po::value<double>()->value_name("DEG")->notifier([&](double a) { o.feature_angle = a; }),
      "edges whose faces meet at a larger angle are kept sharp (default: 45)")
     ("no-features", po::bool_switch(&o.no_features), "do not look for sharp edges")
@@ -98,23 +109,34 @@ inline void check_positive(const po::variables_map& given, const Options& o)
   check("hmax", o.hmax);
   check("rounds", o.rounds);
   check("threads", o.threads);
+  check("vertices", o.vertices);
+  if (o.norm && !(*o.norm >= 1)) throw Usage_error("--norm must be at least 1, or inf");
+  if (o.gradation && !(std::isfinite(*o.gradation) && *o.gradation >= 1))
+    throw Usage_error("--gradation must be at least 1");
   if (o.feature_angle && !(*o.feature_angle > 0 && *o.feature_angle <= 180))
     throw Usage_error("--feature-angle must be an angle in degrees, above 0 and up to 180");
 }
 
 inline void check_available(const po::variables_map& given)
 {
-  for (const char* name : {"field", "vertices", "gradation", "tolerance"})
-    if (given.count(name) != 0) throw Usage_error(std::string("--") + name + " is not available yet");
+  if (given.count("tolerance") != 0) throw Usage_error("--tolerance is not available yet");
 }
 
 inline void check_consistent(const Options& o)
 {
   if (o.input.empty() || o.output.empty()) throw Usage_error("INPUT and OUTPUT are required");
-  if (int(o.size > 0) + int(o.curvature > 0) + int(!o.metric.empty()) != 1)
-    throw Usage_error("exactly one of --size, --curvature and --metric is required");
-  if (o.anisotropic && o.curvature == 0) throw Usage_error("--anisotropic needs --curvature");
+  const bool has_field = !o.field.empty(), has_metric = !o.metric.empty(), has_curvature = o.curvature > 0;
+  if (int(o.size > 0) + int(has_metric) + int(has_field || has_curvature) > 1)
+    throw Usage_error("only --field and --curvature go together: else give one of --size, --curvature, --metric, --field");
+  if (!(o.size > 0) && !has_metric && !has_field && !has_curvature && o.vertices == 0)
+    throw Usage_error("one of --size, --curvature, --metric, --field and --vertices is required");
+  if (has_field && o.vertices == 0) throw Usage_error("--field needs --vertices");
+  if (has_curvature && !has_field && o.vertices > 0)
+    throw Usage_error("--vertices contradicts --curvature: both say how fine the mesh is to be");
+  if (o.norm && !has_field) throw Usage_error("--norm needs --field");
+  if (o.anisotropic && (o.size > 0 || has_metric)) throw Usage_error("--anisotropic needs --curvature, --field or --vertices");
   if (o.size > 0 && (o.hmin > 0 || o.hmax > 0)) throw Usage_error("--hmin and --hmax contradict --size");
+  if (o.size > 0 && (o.vertices > 0 || o.gradation)) throw Usage_error("--vertices and --gradation contradict --size");
   if (o.hmin > 0 && o.hmax > 0 && o.hmin > o.hmax) throw Usage_error("--hmin is larger than --hmax");
   if (o.no_features && o.feature_angle) throw Usage_error("--feature-angle contradicts --no-features");
   if (o.quiet && o.verbose) throw Usage_error("--quiet contradicts --verbose");
@@ -129,7 +151,8 @@ inline void print_help(std::ostream& out)
   out
     << "Usage: adapt_mesh INPUT OUTPUT [options]\n\n"
        "Adapts the triangulated surface in INPUT to a metric and writes it to OUTPUT. The formats follow from the\n"
-       "extensions: off, obj, ply, stl, mesh (MEDIT). Exactly one of --size, --curvature and --metric is required.\n\n"
+       "extensions: off, obj, ply, stl, mesh (MEDIT). One of --size, --curvature, --metric, --field and --vertices is\n"
+       "required.\n\n"
     << internal::described_options(options) << "\nExit status: 0 done, 1 failed, 2 wrong usage, 3 unusable input.\n";
 }
 

@@ -71,6 +71,12 @@ step at the end: if anything throws, it is as it was.
     \cgalParamType{a `WritablePropertyMap` with the vertex descriptor as key and `Metric_tensor_3` as value}
     \cgalParamDefault{not written}
   \cgalParamNEnd
+  \cgalParamNBegin{vertex_attribute_maps}
+    \cgalParamDescription{values at the vertices that the result is to have, too: interpolated on the input, see
+                          `Attribute_interpolator`}
+    \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the vertex descriptor as key}
+    \cgalParamDefault{none}
+  \cgalParamNEnd
   \cgalParamNBegin{visitor}
     \cgalParamDescription{follows the run and may stop it}
     \cgalParamType{a model of `AdaptationVisitor`, or a `std::reference_wrapper` of one}

@@ -8,6 +8,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/attribute_transfer.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/face_graph.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Any_execution.h>
@@ -18,6 +19,7 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -133,6 +135,13 @@ void with_input_numbers(const FaceGraph& graph, const Imported_mesh<FaceGraph>& 
   }
 }
 
+template <class FaceGraph, class... Maps>
+Attribute_transfer<FaceGraph, Maps...> attribute_transfer(const FaceGraph&, const Imported_mesh<FaceGraph>& imported,
+                                                          const std::tuple<Maps...>& maps)
+{
+  return {imported, maps};
+}
+
 /// Runs `kernels(execution, surface)`, which returns a report, on `graph`.
 template <class Execution, class FaceGraph, class MetricField, class NamedParameters, class Kernels>
 Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, const MetricField& field,
@@ -152,10 +161,12 @@ Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, cons
     using Metric = std::decay_t<decltype(background.at(reference, Location(), Surface_point()))>;
     Adapted_surface<Metric, Reconstruction> surface(execution, reference, background);
     report = kernels(execution, surface);
+    auto attributes = attribute_transfer(graph, imported, choose(np, internal_np::vertex_attribute_maps, std::tuple<>()));
     write_connectivity(execution, surface.mesh, graph);
     write_points(execution, surface.points, graph, points);
     write_constraints(graph, surface, features, np);
     write_metric(graph, surface, np);
+    attributes.write(graph, surface);
     surface.release(execution);
   };
   with_input_numbers(graph, imported, [&] { with_background(execution, field, imported, reference, adapt); });
