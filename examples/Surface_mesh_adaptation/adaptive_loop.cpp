@@ -76,11 +76,14 @@ void solve(const Mesh& mesh, Values u, double eps, double time_step, int steps)
   for (const Vertex v : mesh.vertices()) u[v] = x[int(v.idx())];
 }
 
-/// Adapts the mesh to `u`, whose values are those at the new vertices afterwards.
+/// Adapts the mesh to `u`, whose values are those at the new vertices afterwards, and to the surface.
 SMA::Adaptation_report adapt(Mesh& mesh, Values u, std::size_t vertices)
 {
-  SMA::Solution_metric_field field(u, vertices);
-  field.anisotropic = true;
+  SMA::Solution_metric_field solution(u, vertices);
+  SMA::Curvature_metric_field surface(0.005);
+  solution.anisotropic = surface.anisotropic = true;
+  SMA::Intersection_metric_field field(solution, surface);
+  field.vertices = vertices;
   return SMA::adapt_surface_mesh(mesh, field, params::vertex_attribute_maps(std::make_tuple(u)));
 }
 

@@ -311,9 +311,9 @@ TEST(Independence, needs_the_whole_neighbourhood)
 // Restructuring
 
 /// Marks edges at random, on both sides, and a random diagonal where there is a choice.
-std::vector<std::uint8_t> random_marks(const Mesh_view& m, double share, Random& random)
+SMA::Buffer<std::uint8_t> random_marks(const Mesh_view& m, double share, Random& random)
 {
-  std::vector<std::uint8_t> codes(m.number_of_faces(), 0);
+  SMA::Buffer<std::uint8_t> codes(m.number_of_faces(), 0);
   const auto mark = [&](Index h) { codes[h / 3] = std::uint8_t(codes[h / 3] | 1u << (h % 3)); };
   for (Index h = 0; h < m.number_of_halfedges(); ++h) {
     if (m.is_removed_face(h / 3) || !m.is_edge_owner(h) || random.real() >= share) continue;
@@ -325,7 +325,7 @@ std::vector<std::uint8_t> random_marks(const Mesh_view& m, double share, Random&
   return codes;
 }
 
-std::size_t number_of_marks(const Mesh_view& m, const std::vector<std::uint8_t>& codes, bool on_curves_only)
+std::size_t number_of_marks(const Mesh_view& m, const SMA::Buffer<std::uint8_t>& codes, bool on_curves_only)
 {
   std::size_t n = 0;
   for (Index h = 0; h < m.number_of_halfedges(); ++h)

@@ -389,7 +389,8 @@ TEST(Independent_set, is_independent_and_the_same_with_every_policy)
     Ids first;
     for_each_policy([&](const auto& execution, const std::string& name) {
       SCOPED_TRACE(name);
-      SMA::Reservations reservations(g.size());
+      SMA::Reservations reservations;
+      reservations.resize(SMA::Sequential_execution(), g.size());
       for (int again = 0; again < 2; ++again) { // the slots are free again after each pass
         const Ids set = SMA::independent_set(execution, g.size(), reservations, priority,
                                              [&](std::size_t i, const auto& f) { closed_neighborhood(g, i, f); });
