@@ -15,7 +15,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
+#include <tuple>
 
 namespace {
 
@@ -275,6 +278,94 @@ TEST(Adapt, stays_near_smooth_surfaces)
       EXPECT_NEAR(distance, shapes::torus_small_radius, 2e-3);
     }
     EXPECT_GT(checks::least_area(shapes::soup(other), shapes::torus_normal), 0);
+  }
+}
+
+/// Largest distance of the vertices from a surface, of which `off(p)` is the distance to `p`.
+template <class Off>
+double largest_error(const Mesh& mesh, const Off& off)
+{
+  double largest = 0;
+  for (const Vector_3& p : shapes::soup(mesh).points) largest = (std::max)(largest, std::abs(off(p)));
+  return largest;
+}
+
+/// Refines and coarsens again and again: each run takes the mesh that the last one left for the surface.
+template <class Off>
+void expect_no_drift(Mesh mesh, double size, const Off& off)
+{
+  double first = 0;
+  for (int cycle = 0; cycle < 10; ++cycle) {
+    SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.5 * size));
+    SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size));
+    if (cycle == 0) first = largest_error(mesh, off);
+  }
+  EXPECT_GT(first, 0);
+  EXPECT_LE(largest_error(mesh, off), 2 * first);
+}
+
+TEST(Adapt, does_not_drift_over_cycles_of_refinement_and_coarsening)
+{
+  expect_no_drift(shapes::mesh<Mesh>(shapes::sphere(3, 0.2)), 0.16, [](const Vector_3& p) { return p.norm() - 1; });
+  expect_no_drift(shapes::mesh<Mesh>(shapes::torus(48, 24, 0.2)), 0.13, [](const Vector_3& p) {
+    return std::hypot(std::hypot(p[0], p[1]) - shapes::torus_large_radius, p[2]) - shapes::torus_small_radius;
+  });
+}
+
+TEST(Adapt, leaves_an_adapted_mesh_as_it_is)
+{
+  Mesh mesh = real_mesh<Mesh>("elephant");
+  const SMA::Uniform_metric_field field(0.5 * shapes::soup(mesh).mean_edge_length());
+  SMA::adapt_surface_mesh(mesh, field);
+  const Soup before = shapes::soup(mesh);
+  const SMA::Adaptation_report report = SMA::adapt_surface_mesh(mesh, field);
+  EXPECT_EQ(report.rounds, 1u);
+  const auto less = [](const Vector_3& a, const Vector_3& b) {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  };
+  const std::set<Vector_3, decltype(less)> old(before.points.begin(), before.points.end(), less);
+  std::size_t kept = 0;
+  for (const Vector_3& p : shapes::soup(mesh).points) kept += old.count(p);
+  EXPECT_GE(double(kept), 0.99 * double(before.points.size()));
+}
+
+TEST(Adapt, carries_attributes_over)
+{
+  Mesh mesh = real_mesh<Mesh>("elephant");
+  using Vertex = Mesh::Vertex_index;
+  using Point = Mesh::Point;
+  using Vector = CGAL::Simple_cartesian<double>::Vector_3;
+  using Texture = CGAL::Simple_cartesian<double>::Point_2;
+  const auto x = mesh.add_property_map<Vertex, double>("v:x").first;
+  const auto position = mesh.add_property_map<Vertex, Point>("v:position").first;
+  const auto vector = mesh.add_property_map<Vertex, Vector>("v:vector").first;
+  const auto texture = mesh.add_property_map<Vertex, Texture>("v:texture").first;
+  const auto color = mesh.add_property_map<Vertex, CGAL::IO::Color>("v:color").first;
+  const auto side = mesh.add_property_map<Vertex, int>("v:side").first;
+  for (const Vertex v : mesh.vertices()) {
+    const Point& p = mesh.point(v);
+    x[v] = p.x();
+    position[v] = p;
+    vector[v] = p - CGAL::ORIGIN;
+    texture[v] = Texture(p.x(), p.z());
+    color[v] = CGAL::IO::Color(10, 20, 30);
+    side[v] = p.x() > 0 ? 7 : 8;
+  }
+  const double h = shapes::soup(mesh).mean_edge_length();
+  SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.5 * h), SMA::parameters::vertex_attribute_maps(
+                            std::make_tuple(x, position, vector, texture, color, side)));
+  for (const Vertex v : mesh.vertices()) {
+    const Point& p = mesh.point(v);
+    // the values are those on the facets, next to which the surface passes
+    EXPECT_LT(std::sqrt(CGAL::squared_distance(position[v], p)), 0.5 * h);
+    EXPECT_NEAR(x[v], position[v].x(), 1e-12);
+    EXPECT_LT(CGAL::squared_distance(CGAL::ORIGIN + vector[v], position[v]), 1e-24);
+    EXPECT_NEAR(texture[v].y(), position[v].z(), 1e-12);
+    EXPECT_EQ(color[v], CGAL::IO::Color(10, 20, 30));
+    EXPECT_TRUE(side[v] == 7 || side[v] == 8);
+    if (std::abs(p.x()) > 2 * h) {
+      EXPECT_EQ(side[v], p.x() > 0 ? 7 : 8);
+    }
   }
 }
 

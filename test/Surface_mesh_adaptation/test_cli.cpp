@@ -15,6 +15,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -287,8 +289,47 @@ TEST_F(Adapt_mesh, refuses_numbers_out_of_range)
 
 TEST_F(Adapt_mesh, says_what_is_not_available_yet)
 {
-  for (const std::string option : {"--field f.sol", "--vertices 100", "--gradation 1.5", "--tolerance 0.1"})
-    expect_failure(2, "in.off out.off --size 0.1 " + option, "not available yet");
+  expect_failure(2, "in.off out.off --size 0.1 --tolerance 0.1", "not available yet");
+}
+
+TEST_F(Adapt_mesh, aims_at_a_number_of_vertices)
+{
+  for (const std::string options : {"--vertices 2000", "--vertices 500 --anisotropic", "--vertices 3000 --gradation 1.2"}) {
+    SCOPED_TRACE(options);
+    ASSERT_EQ(run("in.off out.off " + options).status, 0);
+    const double asked = std::stod(options.substr(11));
+    EXPECT_NEAR(double(read(path("out.off")).points.size()), asked, 0.05 * asked);
+  }
+}
+
+TEST_F(Adapt_mesh, adapts_to_a_field)
+{
+  std::ostringstream values;
+  values << "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n" << sphere_.points.size() << "\n1 1\n";
+  for (const Vector_3& p : sphere_.points) values << std::tanh(10 * p[2]) << '\n';
+  write(path("f.sol"), values.str() + "End\n");
+  for (const std::string options : {"", "--norm 1", "--norm inf --anisotropic", "--anisotropic --curvature 0.01",
+                                    "--gradation 1"}) {
+    SCOPED_TRACE(options);
+    ASSERT_EQ(run("in.off out.off --field f.sol --vertices 3000 " + options).status, 0);
+    const Soup result = read(path("out.off"));
+    EXPECT_NEAR(double(result.points.size()), 3000, 0.07 * 3000);
+    const auto in_the_front = [](const Vector_3& p) { return std::abs(p[2]) < 0.15; };
+    const auto n = std::count_if(result.points.begin(), result.points.end(), in_the_front);
+    EXPECT_GT(double(n), 0.3 * double(result.points.size())) << "the front takes 15 % of the sphere";
+  }
+}
+
+TEST_F(Adapt_mesh, refuses_fields_that_it_cannot_use)
+{
+  expect_failure(2, "in.off out.off --field f.sol", "--vertices");
+  expect_failure(2, "in.off out.off --vertices 100 --curvature 0.1", "--vertices");
+  expect_failure(2, "in.off out.off --vertices 100 --size 0.1", "--size");
+  expect_failure(2, "in.off out.off --vertices 100 --norm 2", "--norm");
+  expect_failure(2, "in.off out.off --vertices 100 --gradation 0.5", "--gradation");
+  expect_failure(3, "in.off out.off --vertices 100 --field none.sol", "none.sol");
+  write(path("f.sol"), "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n2\n1 1\n1 1\nEnd\n");
+  expect_failure(3, "in.off out.off --vertices 100 --field f.sol", "f.sol");
 }
 
 TEST_F(Adapt_mesh, refuses_unknown_formats)

@@ -50,6 +50,7 @@ struct Adaptation_report
   Mesh_statistics final;           ///< the output in the same metric
   std::size_t rounds = 0;          ///< rounds done
   bool stopped = false;            ///< by the visitor
+  std::size_t fallback_patches = 0; ///< faces of the input over which the surface is less smooth than elsewhere
   std::vector<Kernel_report> kernels;
   std::vector<Mesh_statistics> after_round;
   double seconds = 0;
@@ -98,7 +99,8 @@ inline void write_json(std::ostream& out, const Kernel_report& k)
 inline void Adaptation_report::write_json(std::ostream& out) const
 {
   out << "{\n  \"execution\": \"" << execution << "\", \"threads\": " << threads << ", \"rounds\": " << rounds
-      << ", \"stopped\": " << (stopped ? "true" : "false") << ", \"seconds\": " << seconds << ",\n  \"initial\": ";
+      << ", \"stopped\": " << (stopped ? "true" : "false")
+      << ", \"fallback_patches\": " << fallback_patches << ", \"seconds\": " << seconds << ",\n  \"initial\": ";
   internal::write_json(out, initial);
   out << ",\n  \"final\": ";
   internal::write_json(out, final);

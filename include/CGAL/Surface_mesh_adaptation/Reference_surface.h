@@ -18,8 +18,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -47,13 +49,18 @@ public:
   /// Takes over the mesh, detects its features and estimates its normals.
   template <class Execution>
   Reference_surface(const Execution& execution, Mesh_view mesh_, std::vector<Vector_3> points_,
-                    const Feature_parameters& parameters)
+                    const Feature_parameters& parameters, internal::Given_jets given = {})
     : mesh(std::move(mesh_)), points(std::move(points_))
     , features(detect_features(execution, mesh, points, parameters))
     , normals(estimate_normals(execution, mesh, points))
+    , given_(std::move(given))
     , jets_(execution, normals.normals.size())
+    , has_fallback_(new std::atomic<bool>[mesh.number_of_faces()])
   {
     orthogonalize_normals(execution, mesh, features, normals);
+    for_each_index(execution, mesh.number_of_faces(), [&](std::size_t f) {
+      has_fallback_[f].store(false, std::memory_order_relaxed);
+    }, fill_chunk_length);
   }
 
   /// The location of vertex `v` of the reference.
@@ -95,11 +102,19 @@ public:
   Surface_point evaluate(const Location& l) const
   {
     switch (l.kind) {
-    case Vertex_class::smooth:
-      return Cache::at(id_, l.cell, [&] { return patch(l.cell); }).evaluate(l.u, l.v);
+    case Vertex_class::smooth: return prepared_patch(l.cell).evaluate(l.u, l.v);
     case Vertex_class::curve: return {curve_point(features.curves[l.cell], l.u), Vector_3::Zero()};
     default: return {points[l.cell], Vector_3::Zero()};
     }
+  }
+
+  /// The faces of the input over which a patch was asked for so far and is of lower order.
+  template <class Execution>
+  std::size_t number_of_fallbacks(const Execution& execution) const
+  {
+    return count_if(execution, mesh.number_of_faces(), [&](std::size_t f) {
+      return has_fallback_[f].load(std::memory_order_relaxed);
+    });
   }
 
   /// Moves `l` along the surface by the vector `d`: the straightest path over the faces of the reference that leaves
@@ -220,10 +235,17 @@ public:
 private:
   using Cache = internal::Patch_cache<Reconstruction>;
 
+  const typename Cache::Prepared& prepared_patch(Index f) const
+  {
+    return Cache::at(id_, f, [&] { return patch(f); }, [&](const auto& prepared) {
+      if (internal::has_fallback(prepared, 0)) has_fallback_[f].store(true, std::memory_order_relaxed);
+    });
+  }
+
   internal::Jet jet_at(Index h) const
   {
     return jets_.at(normals.of_corner[h], [&] {
-      return internal::estimate_jet(mesh, points, features, normals, h);
+      return internal::estimate_jet(mesh, points, features, normals, given_, h);
     });
   }
 
@@ -326,7 +348,9 @@ private:
     return {Vertex_class::smooth, f, u / sum, v / sum};
   }
 
+  internal::Given_jets given_;
   internal::Lazy_jets jets_;
+  std::unique_ptr<std::atomic<bool>[]> has_fallback_; ///< of the faces whose patches were asked for
   std::uint64_t id_ = internal::unique_surface_id();
 };
 

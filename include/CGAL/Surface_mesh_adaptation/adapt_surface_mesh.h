@@ -66,6 +66,18 @@ step at the end: if anything throws, it is as it was.
     \cgalParamType{a model of `SurfaceReconstruction`}
     \cgalParamDefault{`Gregory_reconstruction`}
   \cgalParamNEnd
+  \cgalParamNBegin{vertex_normal_map}
+    \cgalParamDescription{the outer normals of the surface at the vertices, where they are known; not used at sharp
+                          features and boundaries}
+    \cgalParamType{a `ReadablePropertyMap` with the vertex descriptor as key and `Vector_3` as value}
+    \cgalParamDefault{estimated from the points, see `estimate_jets()`}
+  \cgalParamNEnd
+  \cgalParamNBegin{vertex_shape_operator_map}
+    \cgalParamDescription{the derivatives of the normal along the surface at the vertices, where they are known: on a
+                          sphere of radius r, `(I - n n^T) / r`; not used at sharp features and boundaries}
+    \cgalParamType{a `ReadablePropertyMap` with the vertex descriptor as key and `Metric_tensor_3` as value}
+    \cgalParamDefault{estimated from the points, see `estimate_jets()`}
+  \cgalParamNEnd
   \cgalParamNBegin{output_metric_map}
     \cgalParamDescription{where the metric at the vertices of the result is written}
     \cgalParamType{a `WritablePropertyMap` with the vertex descriptor as key and `Metric_tensor_3` as value}

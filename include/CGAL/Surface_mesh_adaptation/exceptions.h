@@ -88,6 +88,15 @@ public:
   {}
 };
 
+/// A normal given for a vertex that is zero, NaN or infinite, or a shape operator that is not finite.
+class Invalid_normal_error : public Invalid_input_error
+{
+public:
+  explicit Invalid_normal_error(std::size_t vertex)
+    : Invalid_input_error("the normal is zero or it or the shape operator is not finite", "vertex", vertex)
+  {}
+};
+
 /// An input with no face.
 class Empty_mesh_error : public Adaptation_error
 {

@@ -19,6 +19,7 @@ enum feature_angle_t { feature_angle };
 enum detect_features_t { detect_features };
 enum output_metric_map_t { output_metric_map };
 enum surface_reconstruction_t { surface_reconstruction };
+enum vertex_shape_operator_map_t { vertex_shape_operator_map };
 enum vertex_attribute_maps_t { vertex_attribute_maps };
 
 } // namespace internal_np

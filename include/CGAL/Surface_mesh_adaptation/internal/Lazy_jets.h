@@ -28,6 +28,13 @@ struct Jet
   bool has_shape_operator;
 };
 
+/// What the user knows of the surface at the vertices of the input: empty, or one for each vertex.
+struct Given_jets
+{
+  std::vector<Vector_3> normals;                 ///< unit
+  std::vector<Metric_tensor_3> shape_operators;
+};
+
 class Lazy_jets
 {
 public:
@@ -64,9 +71,9 @@ private:
 };
 
 /// The jet of the sector that the corner `h` belongs to, with the normal of Max and without a shape operator where no fit
-/// is good enough.
+/// is good enough. What is given counts at smooth vertices: others may have several normals.
 inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Features& features,
-                        const Corner_normals& normals, Index h)
+                        const Corner_normals& normals, const Given_jets& given, Index h)
 {
   const Index v = mesh.source(h), sector = normals.of_corner[h];
   Jet jet{normals.normals[sector], Metric_tensor_3(0, 0, 0, 0, 0, 0), false};
@@ -77,6 +84,12 @@ inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& poin
       jet = {fit.normal, fit.shape_operator, true};
     jet.normal = normal_on_features(mesh, features, first, n, jet.normal);
   });
+  if (features.vertex_class[v] != Vertex_class::smooth) return jet;
+  if (!given.normals.empty()) jet.normal = given.normals[v];
+  if (!given.shape_operators.empty()) {
+    jet.shape_operator = given.shape_operators[v];
+    jet.has_shape_operator = true;
+  }
   return jet;
 }
 

@@ -6,6 +6,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_PATCH_CACHE_H
 #define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_PATCH_CACHE_H
 
+#include <CGAL/Surface_mesh_adaptation/Gregory_patch_3.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Patch.h>
 
@@ -38,6 +39,19 @@ struct Prepared_patch<Reconstruction, std::void_t<typename Reconstruction::Prepa
   using Reconstruction::Prepared_patch::Prepared_patch;
 };
 
+/// Whether a prepared patch is of lower order than its model promises, because its corners say too little.
+template <class Prepared>
+auto has_fallback(const Prepared& p, int) -> decltype(p.interior(), bool())
+{
+  using Gregory = Gregory_patch_3;
+  bool found = p.interior() != Gregory::Interior::gregory;
+  for (std::size_t i = 0; i < 3; ++i) found = found || p.curve(i) == Gregory::Curve::straight;
+  return found;
+}
+
+template <class Prepared>
+bool has_fallback(const Prepared&, long) { return false; }
+
 /// Tells surfaces apart, also those that follow each other at one address.
 inline std::uint64_t unique_surface_id()
 {
@@ -51,14 +65,16 @@ class Patch_cache
 public:
   using Prepared = Prepared_patch<Reconstruction>;
 
-  /// The patch of `face` of the surface `id`, made from `patch()` unless this thread has it.
-  template <class MakePatch>
-  static const Prepared& at(std::uint64_t id, Index face, const MakePatch& patch)
+  /// The patch of `face` of the surface `id`, made from `patch()` unless this thread has it; then `note(prepared)` is
+  /// called.
+  template <class MakePatch, class Note>
+  static const Prepared& at(std::uint64_t id, Index face, const MakePatch& patch, const Note& note)
   {
     thread_local const std::unique_ptr<std::array<Entry, length>> entries(new std::array<Entry, length>());
     Entry& e = (*entries)[face % length];
     if (e.surface != id || e.face != face) {
       e.prepared.emplace(patch());
+      note(*e.prepared);
       e.surface = id;
       e.face = face;
     }

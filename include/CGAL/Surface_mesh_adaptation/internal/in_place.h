@@ -117,6 +117,32 @@ void write_metric(FaceGraph& graph, const Surface& surface, const NamedParameter
   }
 }
 
+/// The normals and shape operators that the parameters give.
+/// \throws Invalid_normal_error
+template <class FaceGraph, class NamedParameters>
+Given_jets given_jets(const Imported_mesh<FaceGraph>& imported, const NamedParameters& np)
+{
+  Given_jets given;
+  if constexpr (has_parameter<NamedParameters, CGAL::internal_np::vertex_normal_map_t>) {
+    const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_normal_map);
+    for (const auto v : imported.vertices) {
+      const auto& n = get(map, v);
+      const Vector_3 normal(CGAL::to_double(n.x()), CGAL::to_double(n.y()), CGAL::to_double(n.z()));
+      if (!(normal.norm() > 0 && normal.allFinite())) throw Invalid_normal_error(given.normals.size());
+      given.normals.push_back(normal.normalized());
+    }
+  }
+  if constexpr (has_parameter<NamedParameters, internal_np::vertex_shape_operator_map_t>) {
+    const auto map = CGAL::parameters::get_parameter(np, internal_np::vertex_shape_operator_map);
+    for (const auto v : imported.vertices) {
+      given.shape_operators.push_back(get(map, v));
+      if (!given.shape_operators.back().matrix().allFinite())
+        throw Invalid_normal_error(given.shape_operators.size() - 1);
+    }
+  }
+  return given;
+}
+
 /// Calls `use()`; an error in the metric or field at a vertex is reported with the place of that vertex in `graph`, not
 /// with its number after the renumbering of the import.
 template <class FaceGraph, class Use>
@@ -132,6 +158,8 @@ void with_input_numbers(const FaceGraph& graph, const Imported_mesh<FaceGraph>& 
     throw Invalid_metric_error(place(e));
   } catch (const Invalid_field_error& e) {
     throw Invalid_field_error(place(e));
+  } catch (const Invalid_normal_error& e) {
+    throw Invalid_normal_error(place(e));
   }
 }
 
@@ -154,7 +182,9 @@ Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, cons
   auto imported = read_face_graph(execution, graph, points);
   Feature_parameters features = feature_parameters(graph, imported, np);
   improve_locality(execution, imported, features);
-  const Reference_surface<Reconstruction> reference(execution, imported.mesh, imported.points, features);
+  Given_jets given;
+  with_input_numbers(graph, imported, [&] { given = given_jets(imported, np); });
+  const Reference_surface<Reconstruction> reference(execution, imported.mesh, imported.points, features, std::move(given));
 
   Adaptation_report report;
   const auto adapt = [&](const auto& background) {
@@ -170,6 +200,7 @@ Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, cons
     surface.release(execution);
   };
   with_input_numbers(graph, imported, [&] { with_background(execution, field, imported, reference, adapt); });
+  report.fallback_patches = reference.number_of_fallbacks(execution);
   report.execution = Execution::name;
   report.threads = policy.concurrency();
   return report;

@@ -4,6 +4,7 @@
 
 // of CGAL
 CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::vertex_point_t, vertex_point_map)
+CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::vertex_normal_map_t, vertex_normal_map)
 CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::edge_is_constrained_t, edge_is_constrained_map)
 CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::vertex_is_constrained_t, vertex_is_constrained_map)
 CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::number_of_iterations_t, number_of_iterations)
@@ -15,3 +16,4 @@ CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::detect_feat
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::output_metric_map_t, output_metric_map)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::surface_reconstruction_t, surface_reconstruction)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::vertex_attribute_maps_t, vertex_attribute_maps)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::vertex_shape_operator_map_t, vertex_shape_operator_map)
