@@ -73,9 +73,11 @@ inline bool dominates(const Metric_tensor_3& m, const Metric_tensor_3& a)
 /// along the edge takes it to what the same function gives for the other end, so both ends measure one vector.
 inline Vector_3 edge_in_tangent_plane(const Vector_3& e, const Vector_3& normal, const Vector_3& normal_of_other_end)
 {
-  const Vector_3 middle = normal + normal_of_other_end;
-  const double length = middle.norm();
-  return length > 1e-6 ? Vector_3(minimal_rotation(middle / length, normal) * e) : e;
+  const double c = normal.dot(normal_of_other_end);
+  if (c < -1 + 1e-12) return e;
+  const double cosine = std::sqrt((1 + c) / 2); // of half the angle
+  const Vector_3 x = normal_of_other_end.cross(normal) / (2 * cosine);
+  return cosine * e + x.cross(e) + x.dot(e) / (1 + cosine) * x;
 }
 
 /// One run of the gradation of tensors.

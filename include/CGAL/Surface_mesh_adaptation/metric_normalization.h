@@ -218,17 +218,18 @@ std::pair<double, double> range_of_traces(const Execution& execution, const std:
 }
 
 /// Finds `x` in `[low, high]` with `f(x) = 0` to within `tolerance`, or the end that is nearer to it, for `f` that does
-/// not decrease: secants through the last two points, the first with slope 1, and halves of the bracket where they
-/// leave it.
+/// not decrease: secants through the last two points, and halves of the bracket where they leave it. The slope of the
+/// first is 1 below zero, and above as measured on metrics that gradation made that much too fine.
 template <class F>
 double solve_increasing(const F& f, double low, double high, double start, double tolerance)
 {
-  double x = start, slope = 1, last_x = 0, last_value = 0;
+  double x = start, slope = 0, last_x = 0, last_value = 0;
   for (int i = 0; high - low > tolerance / 16; ++i) {
     const double value = f(x);
     if (std::abs(value) <= tolerance) return x;
     (value < 0 ? low : high) = x;
-    if (i > 0 && (value - last_value) * (x - last_x) > 0) slope = std::clamp((value - last_value) / (x - last_x), 0.2, 5.0);
+    if (i == 0) slope = 1 / (1 + 0.6 * (std::max)(0.0, value));
+    else if ((value - last_value) * (x - last_x) > 0) slope = std::clamp((value - last_value) / (x - last_x), 0.2, 5.0);
     last_x = x;
     last_value = value;
     x -= value / slope;
