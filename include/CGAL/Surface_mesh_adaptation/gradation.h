@@ -11,7 +11,6 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/metric_intersection.h>
 #include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
@@ -95,7 +94,7 @@ public:
 private:
   /// The tensor at `v`, intersected with what those changed neighbours let grow there that bound the size along the
   /// edge to them.
-  CGAL_SMA_FLATTEN Metric_tensor_3 raised_tensor(Index v) const
+  Metric_tensor_3 raised_tensor(Index v) const
   {
     Ring<Ranked_metric> candidates;
     const auto look_along = [&](Index at_v, Index at_w) {
