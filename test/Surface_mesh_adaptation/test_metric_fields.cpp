@@ -303,7 +303,7 @@ TEST(Complexity, counts_the_vertices_of_a_mesh_with_unit_edges_exactly)
       const Reference r = reference(soup);
       const Metric_tensor_3 m(1 / (stretch * stretch), 0, 1, 0, 0, 1);
       const auto c = complexity(sequential, r.mesh, r.points, r.normals, Tensors(soup.points.size(), m));
-      EXPECT_NEAR(SMA::expected_number_of_vertices(r.mesh, c, 1), double(soup.points.size()), 1e-9);
+      EXPECT_NEAR(SMA::expected_number_of_vertices(sequential, r.mesh, c, 1), double(soup.points.size()), 1e-9);
       EXPECT_NEAR(c.boundary_length, 6 * rings, 1e-9);
     }
 }
@@ -401,7 +401,7 @@ void expect_normalized(double max_anisotropy)
     for (const double n : {400.0, 2000.0, 5000.0}) {
       const auto values = SMA::normalize_to_vertex_count<Value>(sequential, r.mesh, r.points, r.normals, metric, n);
       const auto c = complexity(sequential, r.mesh, r.points, r.normals, values);
-      EXPECT_NEAR(SMA::expected_number_of_vertices(r.mesh, c), n, 0.01 * n) << p;
+      EXPECT_NEAR(SMA::expected_number_of_vertices(sequential, r.mesh, c), n, 0.01 * n) << p;
       EXPECT_LE(largest_size(values), 0.2 * (1 + 1e-9));
       EXPECT_GE(smallest_size(values), 0.004 * (max_anisotropy > 1 ? 0.85 : 1 - 1e-9)); // intersections
       EXPECT_LE(largest_shock(r, values), 1.5 * (1 + 1e-9));
@@ -570,6 +570,25 @@ TEST(Curvature_metric_field, has_the_sizes_of_the_chordal_bound)
     EXPECT_NEAR(1 / std::sqrt(l[1]), expected, 0.02 * expected);
     EXPECT_NEAR(1 / std::sqrt(l[2]), expected, 0.02 * expected);
   }
+}
+
+TEST(Curvature_metric_field, of_noisy_points_is_smoother_if_told)
+{
+  const Soup soup = analytic::with_noise(shapes::sphere(4, 0.3), 0.02);
+  Mesh mesh = shapes::mesh<Mesh>(soup);
+  SMA::Curvature_metric_field field(1e-3);
+  field.gradation = 1;
+  const auto spread = [&](bool noisy) { // relative standard deviation of what is one size
+    field.noisy = noisy;
+    double sum = 0, squares = 0;
+    for (const double h : vertex_metric<double>(mesh, field)) {
+      sum += h;
+      squares += h * h;
+    }
+    return std::sqrt(squares * double(soup.points.size()) / (sum * sum) - 1);
+  };
+  EXPECT_LT(spread(true), 0.04);
+  EXPECT_GT(spread(false), 2 * spread(true));
 }
 
 TEST(Curvature_metric_field, is_anisotropic_only_as_far_as_it_may)

@@ -11,7 +11,6 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/metric_intersection.h>
 #include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
@@ -53,29 +52,15 @@ void apply_gradation(const Execution& execution, const Mesh_view& mesh, const st
 
 namespace internal {
 
-/// Whether `m - a` is positive semidefinite but for rounding: then intersecting `m` with `a` would not change it.
-inline bool dominates(const Metric_tensor_3& m, const Metric_tensor_3& a)
-{
-  constexpr double relative_slack = 1e-11, absolute_slack = 1e-14; // the latter in units of the largest eigenvalue
-  const double slack = absolute_slack * (m[0] + m[2] + m[5]);
-  const auto d = [&](int i) { return m[i] + relative_slack * m[i] - a[i]; };
-  // Cholesky factors of d + slack I, column by column
-  const double xx = d(0) + slack;
-  if (!(xx > 0)) return false;
-  const double lyx = d(1) / xx, lzx = d(3) / xx;
-  const double yy = d(2) + slack - lyx * d(1);
-  if (!(yy > 0)) return false;
-  const double zy = d(4) - lzx * d(1);
-  return d(5) + slack - lzx * d(3) - zy * zy / yy > 0;
-}
-
 /// The edge vector `e`, carried from half-way between the normals of its ends to that of its first end. The transport
 /// along the edge takes it to what the same function gives for the other end, so both ends measure one vector.
 inline Vector_3 edge_in_tangent_plane(const Vector_3& e, const Vector_3& normal, const Vector_3& normal_of_other_end)
 {
-  const Vector_3 middle = normal + normal_of_other_end;
-  const double length = middle.norm();
-  return length > 1e-6 ? Vector_3(minimal_rotation(middle / length, normal) * e) : e;
+  const double c = normal.dot(normal_of_other_end);
+  if (c < -1 + 1e-12) return e;
+  const double cosine = std::sqrt((1 + c) / 2); // of half the angle
+  const Vector_3 x = normal_of_other_end.cross(normal) / (2 * cosine);
+  return cosine * e + x.cross(e) + x.dot(e) / (1 + cosine) * x;
 }
 
 /// One run of the gradation of tensors.
@@ -107,15 +92,13 @@ public:
   }
 
 private:
-  /// The tensor at `v`, intersected with what its changed neighbours let grow there.
-  CGAL_SMA_FLATTEN Metric_tensor_3 raised_tensor(Index v) const
+  /// The tensor at `v`, intersected with what those changed neighbours let grow there that bound the size along the
+  /// edge to them.
+  Metric_tensor_3 raised_tensor(Index v) const
   {
-    Metric_tensor_3 result = tensors_[v];
     Ring<Ranked_metric> candidates;
-    const auto look_along = [&](Index from_v, Index from_w) {
-      if (!changed_[mesh_.source(from_w)]) return;
-      const Metric_tensor_3 grown = grown_tensor(from_w, from_v);
-      if (!dominates(result, grown)) candidates.emplace_back(grown);
+    const auto look_along = [&](Index at_v, Index at_w) {
+      if (changed_[mesh_.source(at_w)]) add_candidate(at_v, at_w, candidates);
     };
     mesh_.for_each_outgoing(v, [&](Index h) {
       // a ridge has normals on both sides: both ends use those of the same face
@@ -125,20 +108,26 @@ private:
       if (mesh_.is_border(last)) look_along(h, last);
     });
     std::sort(candidates.begin(), candidates.end());
-    for (const Ranked_metric& c : candidates)
-      if (!dominates(result, c.metric)) result = intersection(result, c.metric);
+    Metric_tensor_3 result = tensors_[v];
+    for (const Ranked_metric& c : candidates) result = intersection(result, c.metric);
     return result;
   }
 
-  /// The tensor at the corner `from`, carried to the corner `to` at the other end of an edge, its sizes grown by the
-  /// length of the edge in it.
-  Metric_tensor_3 grown_tensor(Index from, Index to) const
+  /// Adds the tensor of the other end of an edge, carried to this one and with its sizes grown by its length of the
+  /// edge, if the size along the edge exceeds that. The edge is given by the corners at both ends.
+  void add_candidate(Index corner, Index other_corner, Ring<Ranked_metric>& candidates) const
   {
-    const Index w = mesh_.source(from), v = mesh_.source(to);
-    const Vector_3 &normal = normals_.at(from), &normal_of_end = normals_.at(to);
-    const Vector_3 edge = edge_in_tangent_plane(points_[v] - points_[w], normal, normal_of_end);
-    const double growth = 1 + slope_ * tensors_[w].length(edge);
-    return 1 / (growth * growth) * rotated(tensors_[w], minimal_rotation(normal, normal_of_end));
+    const Index v = mesh_.source(corner), w = mesh_.source(other_corner);
+    const Vector_3 &normal = normals_.at(corner), &other_normal = normals_.at(other_corner);
+    const Vector_3 edge = points_[w] - points_[v];
+    const double other_length = tensors_[w].length(edge_in_tangent_plane(edge, other_normal, normal));
+    const double growth = 1 + slope_ * other_length;
+    // the sizes along the edge are its length over these
+    const Metric_tensor_3& m = tensors_[v];
+    const double rounding = 1e-14 * (m[0] + m[2] + m[5]) * edge.squaredNorm();
+    const double squared_length = m.squared_length(edge_in_tangent_plane(edge, normal, other_normal)) + rounding;
+    if (squared_length * growth * growth >= other_length * other_length) return;
+    candidates.emplace_back(1 / (growth * growth) * rotated(tensors_[w], minimal_rotation(other_normal, normal)));
   }
 
   const Mesh_view& mesh_;
@@ -151,15 +140,16 @@ private:
 
 } // namespace internal
 
-/// Raises `tensors` (one per vertex) until the sizes `h_p`, `h_q` that the tensors at the ends of any edge `pq` ask for
-/// along it satisfy `|h_p - h_q| <= |pq| ln ratio`, the edge being carried to the tangent planes of its ends and from
-/// one to the other by the minimal rotation of the normals: each tensor is
-/// intersected with those of its neighbours, carried to it and divided by `(1 + l ln ratio)^2`, with `l` the length of
-/// the edge in the neighbour's tensor (growth that is homogeneous in the metric). What would change a vertex is
-/// folded by decreasing determinant, so the numbering of the mesh does not matter. `ratio <= 1` switches it off.
+/// Raises `tensors` (one per vertex) until the h-shock of every edge `pq` is at most `ratio`: the sizes `h_p`, `h_q` that
+/// the tensors at its ends ask for along it satisfy `|h_p - h_q| <= |pq| ln ratio`. The edge is carried to the tangent
+/// planes of its ends, and from one to the other, by the minimal rotation of the normals. A tensor of which the size
+/// along an edge is too large is intersected with that of the other end, carried to it and divided by
+/// `(1 + l ln ratio)^2`, with `l` the length of the edge in the tensor of the other end (growth that is homogeneous in
+/// the metric). What several neighbours bound is folded by decreasing determinant, so the numbering of the mesh does not
+/// matter. `ratio <= 1` switches it off.
 /// \pre all tensors are positive definite
-/// \complexity a few microseconds for each vertex with a changed neighbour, sweep by sweep; the number of sweeps is that
-///   of the layers of vertices over which the smallest sizes have an effect
+/// \complexity in each sweep a few hundred nanoseconds for each vertex with a changed neighbour; the number of sweeps is
+///   that of the layers of vertices over which the smallest sizes have an effect
 template <class Execution>
 void apply_gradation(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
                      const Corner_normals& normals, double ratio, std::vector<Metric_tensor_3>& tensors)

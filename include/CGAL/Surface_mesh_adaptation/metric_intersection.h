@@ -7,6 +7,8 @@
 
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 
+#include <Eigen/Cholesky>
+
 #include <boost/container/small_vector.hpp>
 
 #include <algorithm>
@@ -16,17 +18,16 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 
 /// The largest metric whose unit ball lies in both unit balls, by simultaneous reduction. Commutative and
-/// idempotent, not associative. In the form `A^(1/2) max(1, A^(-1/2) B A^(-1/2)) A^(1/2)` it is exact for
-/// homothetic tensors, where the eigenvectors of `A^-1 B` are lost. \pre both are positive definite
+/// idempotent, not associative. In the form `R max(1, R^-1 B R^-T) R^T` with a root `R R^T` of `A`, here the factor of
+/// Cholesky, it is exact for homothetic tensors, where the eigenvectors of `A^-1 B` are lost.
+/// \pre both are positive definite
 inline Metric_tensor_3 intersection(const Metric_tensor_3& a, const Metric_tensor_3& b)
 {
-  const Eigen_decomposition_3 ea = eigen_decomposition(a);
-  const Vector_3 root = ea.values.array().sqrt().matrix();
-  const Matrix_3 half = ea.vectors * root.asDiagonal() * ea.vectors.transpose();
-  const Matrix_3 inverse_half = ea.vectors * root.cwiseInverse().asDiagonal() * ea.vectors.transpose();
-  const Eigen_decomposition_3 es = eigen_decomposition(Metric_tensor_3(Matrix_3(inverse_half * b.matrix() * inverse_half)));
-  const Matrix_3 q = half * es.vectors;
-  return Metric_tensor_3(Matrix_3(q * es.values.cwiseMax(1.0).asDiagonal() * q.transpose()));
+  const Eigen::LLT<Matrix_3> root(a.matrix());
+  const Matrix_3 half = root.matrixL().solve(b.matrix());
+  const Eigen_decomposition_3 e = eigen_decomposition(Metric_tensor_3(Matrix_3(root.matrixL().solve(half.transpose()))));
+  const Matrix_3 q = root.matrixL() * e.vectors;
+  return Metric_tensor_3(Matrix_3(q * e.values.cwiseMax(1.0).asDiagonal() * q.transpose()));
 }
 
 namespace internal {

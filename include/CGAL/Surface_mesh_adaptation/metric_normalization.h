@@ -51,11 +51,14 @@ constexpr double default_packing = 1.04;
 
 /// The number of vertices of a mesh with unit edges in a metric of this complexity: `2 packing C / sqrt(3)`, plus half
 /// the number of boundary edges and the Euler characteristic.
-inline double expected_number_of_vertices(const Mesh_view& mesh, const Metric_complexity& complexity,
-                                          double packing = default_packing)
+template <class Execution>
+double expected_number_of_vertices(const Execution& execution, const Mesh_view& mesh,
+                                   const Metric_complexity& complexity, double packing = default_packing)
 {
   const std::size_t faces = mesh.number_of_faces();
-  const std::size_t borders = std::size_t(std::count(mesh.twin.begin(), mesh.twin.end(), no_index));
+  const std::size_t borders = count_if(execution, mesh.number_of_halfedges(), [&](std::size_t h) {
+    return mesh.is_border(Index(h));
+  });
   // V - E + F, with 3 F = 2 E - B
   const double euler = double(mesh.number_of_vertices()) - double(faces + borders) / 2;
   return packing * 2 / std::sqrt(3.0) * complexity.area + complexity.boundary_length / 2 + euler;
@@ -218,17 +221,18 @@ std::pair<double, double> range_of_traces(const Execution& execution, const std:
 }
 
 /// Finds `x` in `[low, high]` with `f(x) = 0` to within `tolerance`, or the end that is nearer to it, for `f` that does
-/// not decrease: secants through the last two points, the first with slope 1, and halves of the bracket where they
-/// leave it.
+/// not decrease: secants through the last two points, and halves of the bracket where they leave it. The slope of the
+/// first is 1 below zero, and above as measured on metrics that gradation made that much too fine.
 template <class F>
 double solve_increasing(const F& f, double low, double high, double start, double tolerance)
 {
-  double x = start, slope = 1, last_x = 0, last_value = 0;
+  double x = start, slope = 0, last_x = 0, last_value = 0;
   for (int i = 0; high - low > tolerance / 16; ++i) {
     const double value = f(x);
     if (std::abs(value) <= tolerance) return x;
     (value < 0 ? low : high) = x;
-    if (i > 0 && (value - last_value) * (x - last_x) > 0) slope = std::clamp((value - last_value) / (x - last_x), 0.2, 5.0);
+    if (i == 0) slope = 1 / (1 + 0.6 * (std::max)(0.0, value));
+    else if ((value - last_value) * (x - last_x) > 0) slope = std::clamp((value - last_value) / (x - last_x), 0.2, 5.0);
     last_x = x;
     last_value = value;
     x -= value / slope;
@@ -270,7 +274,7 @@ std::vector<Value> normalize_to_vertex_count(const Execution& execution, const M
   std::vector<Value> values;
   const auto excess = [&] {
     const Metric_complexity c = complexity(execution, mesh, points, normals, values);
-    return std::log((std::max)(1.0, expected_number_of_vertices(mesh, c, packing)) / number_of_vertices);
+    return std::log((std::max)(1.0, expected_number_of_vertices(execution, mesh, c, packing)) / number_of_vertices);
   };
   // from where all sizes are hmax to where all are hmin
   const double low = -std::log(largest * metric.bounds.hmax * metric.bounds.hmax),
