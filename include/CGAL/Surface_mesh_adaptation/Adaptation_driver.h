@@ -12,8 +12,10 @@
 #include <CGAL/Surface_mesh_adaptation/kernels/Swapping.h>
 #include <CGAL/Surface_mesh_adaptation/mesh_statistics.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -31,23 +33,24 @@ public:
     , relocation_(execution, surface, {})
   {}
 
-  /// At most `rounds` rounds.
-  Adaptation_report run(std::size_t rounds)
+  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, the metric is scaled and a few more
+  /// follow.
+  Adaptation_report run(std::size_t rounds, std::size_t number_of_vertices = 0)
   {
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
-    find_work();
     if (report_.initial.in_range > adapted_share) relocation_.expect_adapted();
-    for (round_ = 0; round_ < rounds && !report_.stopped; ++round_) {
-      visitor_.round_begins(round_, rounds);
-      do_round();
-      report_.after_round.push_back(mesh_statistics(execution_, surface_));
-      visitor_.round_done(round_, report_.after_round.back());
-      ++report_.rounds;
-      if (!is_improving()) break;
+    find_work();
+    do_rounds(rounds);
+    for (int i = 0; i < max_corrections && number_of_vertices > 0 && !report_.stopped; ++i) {
+      const double ratio = double(number_of_vertices) / double(current().vertices);
+      if (std::abs(ratio - 1) < budget_precision) break;
+      surface_.scale_metric(execution_, std::clamp(ratio, 1 / max_correction, max_correction));
+      find_work();
+      do_rounds(rounds_of_correction);
     }
     refinement_.compact();
-    report_.final = report_.after_round.empty() ? report_.initial : report_.after_round.back();
+    report_.final = current();
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report_;
   }
@@ -60,6 +63,7 @@ private:
     const Mesh_view& mesh = surface_.mesh;
     fill(execution_, surface_.active, mesh.number_of_vertices(), std::uint8_t(Activity::relocate));
     for_each_index(execution_, mesh.number_of_faces(), [&](std::size_t f) {
+      if (mesh.is_removed_face(Index(f))) return;
       const std::array<Index, 3> v{mesh.corner[3 * f], mesh.corner[3 * f + 1], mesh.corner[3 * f + 2]};
       std::uint8_t kernels = 0;
       if (!surface_.has_quality(v[0], v[1], v[2], max_improvable_quality)) kernels |= std::uint8_t(Activity::swap);
@@ -68,6 +72,24 @@ private:
       if (kernels != 0)
         for (const Index corner : v) activate(surface_, corner, kernels);
     });
+  }
+
+  const Mesh_statistics& current() const
+  {
+    return report_.after_round.empty() ? report_.initial : report_.after_round.back();
+  }
+
+  void do_rounds(std::size_t rounds)
+  {
+    for (std::size_t i = 0; i < rounds && !report_.stopped; ++i, ++round_) {
+      const Mesh_statistics before = current();
+      visitor_.round_begins(round_, round_ + rounds - i);
+      do_round();
+      report_.after_round.push_back(mesh_statistics(execution_, surface_));
+      visitor_.round_done(round_, current());
+      ++report_.rounds;
+      if (!is_improving(before)) break;
+    }
   }
 
   void do_round()
@@ -101,11 +123,10 @@ private:
   }
 
   /// Whether the last round gained enough in conformity or quality for another one to be worth it.
-  bool is_improving() const
+  bool is_improving(const Mesh_statistics& before) const
   {
-    const Mesh_statistics& now = report_.after_round.back();
-    const Mesh_statistics& before = report_.rounds > 1 ? report_.after_round[report_.rounds - 2] : report_.initial;
-    return now.in_range - before.in_range > least_gain || now.mean_quality - before.mean_quality > least_gain;
+    return current().in_range - before.in_range > least_gain ||
+           current().mean_quality - before.mean_quality > least_gain;
   }
 
   std::size_t negligible(double share) const { return std::size_t(share * double(surface_.mesh.number_of_vertices())); }
@@ -148,6 +169,10 @@ private:
   static constexpr double negligible_share = 0.004;
   static constexpr double refine_share = 0.01;           // a sweep rewrites the mesh, even for a single edge, so
   static constexpr double first_refine_share = 0.0015;   // a few edges wait for the first sweep of the next round
+  static constexpr int max_corrections = 2;              // of the metric, for a number of vertices
+  static constexpr double max_correction = 1.25;         // each
+  static constexpr double budget_precision = 0.02;
+  static constexpr std::size_t rounds_of_correction = 3;
   static constexpr double adapted_share = 0.95;          // of the edges in range
   static constexpr double least_gain = 0.001;            // in the share of edges in range or in mean quality
 

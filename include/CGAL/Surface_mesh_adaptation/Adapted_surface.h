@@ -198,6 +198,14 @@ public:
     return place(best.location, best.point);
   }
 
+  /// Multiplies the metric by `factor`: the vertices it asks for, but for boundaries, too.
+  template <class Execution>
+  void scale_metric(const Execution& execution, double factor)
+  {
+    scale_ *= factor;
+    for_each_index(execution, metrics.size(), [&](std::size_t v) { metrics[v] = scaled(metrics[v], factor); });
+  }
+
   /// Gives back the memory; nothing but the destructor may be called afterwards.
   template <class Execution>
   void release(const Execution& execution)
@@ -225,7 +233,8 @@ private:
 
   Placed_vertex<Metric> place(const Location& l, const Surface_point& p) const
   {
-    return {l, p.position, p.normal, background_->at(*reference_, l, p)};
+    const Metric metric = background_->at(*reference_, l, p);
+    return {l, p.position, p.normal, scale_ == 1 ? metric : scaled(metric, scale_)};
   }
 
   static constexpr double split_precision = 0.02; // of the edge: later moves undo the rest
@@ -233,6 +242,7 @@ private:
 
   const Reference* reference_;
   const Background* background_;
+  double scale_ = 1; ///< of the metric
 };
 
 } // namespace Surface_mesh_adaptation

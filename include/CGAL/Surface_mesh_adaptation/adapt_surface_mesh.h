@@ -110,7 +110,7 @@ auto adapt_surface_mesh(const Execution& execution, TriangleMesh& mesh, const Me
   auto visitor_parameter = internal::choose(np, CGAL::internal_np::visitor, std::ref(nothing));
   auto& visitor = internal::unwrap(visitor_parameter);
   return internal::adapt_in_place(execution, mesh, field, np, [&](const auto& policy, auto& surface) {
-    return Adaptation_driver(policy, surface, visitor).run(rounds);
+    return Adaptation_driver(policy, surface, visitor).run(rounds, internal::number_of_vertices(field, 0));
   });
 }
 

@@ -34,6 +34,14 @@ struct Anisotropic_metric
   const Metric_tensor_3& tensor() const { return m; }
 };
 
+/// The metric in which areas are `factor` times as large.
+inline Isotropic_metric scaled(const Isotropic_metric& m, double factor)
+{
+  return {std::sqrt(factor) * m.inverse_size};
+}
+
+inline Anisotropic_metric scaled(const Anisotropic_metric& a, double factor) { return {factor * a.m}; }
+
 /// The interval of metric lengths that count as "as asked for".
 constexpr double min_unit_length = 0.70710678118654752;
 constexpr double max_unit_length = 1.41421356237309505;

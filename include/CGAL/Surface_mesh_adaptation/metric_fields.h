@@ -238,6 +238,19 @@ void with_vertex_metric(const Execution&, const PropertyMap& map, const Import& 
   }
 }
 
+/// The number of vertices that a field asks for; 0: none.
+template <class Field>
+auto number_of_vertices(const Field& field, int) -> decltype(std::size_t(field.vertices))
+{
+  return field.vertices;
+}
+
+template <class Field>
+std::size_t number_of_vertices(const Field&, long)
+{
+  return 0;
+}
+
 template <class Field>
 auto without_gradation(Field field, int) -> decltype(void(field.gradation), Field(field))
 {
