@@ -13,6 +13,24 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+namespace internal {
+
+/// `adapt_surface_mesh` with a policy that is known at run time only: compiled once for all policies.
+template <class TriangleMesh, class MetricField, class NamedParameters>
+Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, const MetricField& field,
+                        const NamedParameters& np)
+{
+  const std::size_t rounds = choose(np, CGAL::internal_np::number_of_iterations, default_number_of_rounds);
+  Adaptation_visitor nothing;
+  auto visitor_parameter = choose(np, CGAL::internal_np::visitor, std::ref(nothing));
+  auto& visitor = unwrap(visitor_parameter);
+  return adapt_in_place(execution, mesh, field, np, [&](const auto& policy, auto& surface) {
+    return Adaptation_driver(policy, surface, visitor).run(rounds, number_of_vertices(field, 0));
+  });
+}
+
+} // namespace internal
+
 /*!
 Adapts a triangulated surface to a metric field, in place: rounds of refinement, simplification, swapping and
 relocation, until the edges have length 1 in the metric and the faces are well shaped in it.
@@ -105,13 +123,9 @@ auto adapt_surface_mesh(const Execution& execution, TriangleMesh& mesh, const Me
                         const NamedParameters& np = CGAL::parameters::default_values())
   -> decltype(execution.concurrency(), Adaptation_report())
 {
-  const std::size_t rounds = internal::choose(np, CGAL::internal_np::number_of_iterations, default_number_of_rounds);
-  Adaptation_visitor nothing;
-  auto visitor_parameter = internal::choose(np, CGAL::internal_np::visitor, std::ref(nothing));
-  auto& visitor = internal::unwrap(visitor_parameter);
-  return internal::adapt_in_place(execution, mesh, field, np, [&](const auto& policy, auto& surface) {
-    return Adaptation_driver(policy, surface, visitor).run(rounds, internal::number_of_vertices(field, 0));
-  });
+  Adaptation_report report = internal::adapt(internal::Any_execution(execution), mesh, field, np);
+  report.execution = Execution::name;
+  return report;
 }
 
 /// The same with the policy as a template parameter: `CGAL::Sequential_tag`, `CGAL::Parallel_tag`,

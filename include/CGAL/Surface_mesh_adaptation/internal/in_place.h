@@ -171,13 +171,12 @@ Attribute_transfer<FaceGraph, Maps...> attribute_transfer(const FaceGraph&, cons
 }
 
 /// Runs `kernels(execution, surface)`, which returns a report, on `graph`.
-template <class Execution, class FaceGraph, class MetricField, class NamedParameters, class Kernels>
-Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, const MetricField& field,
+template <class FaceGraph, class MetricField, class NamedParameters, class Kernels>
+Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& graph, const MetricField& field,
                                  const NamedParameters& np, const Kernels& kernels)
 {
   using Reconstruction = std::decay_t<decltype(
     choose(np, internal_np::surface_reconstruction, Gregory_reconstruction()))>;
-  const Any_execution execution(policy);
   const auto points = point_map(graph, np);
   auto imported = read_face_graph(execution, graph, points);
   Feature_parameters features = feature_parameters(graph, imported, np);
@@ -201,8 +200,7 @@ Adaptation_report adapt_in_place(const Execution& policy, FaceGraph& graph, cons
   };
   with_input_numbers(graph, imported, [&] { with_background(execution, field, imported, reference, adapt); });
   report.fallback_patches = reference.number_of_fallbacks(execution);
-  report.execution = Execution::name;
-  report.threads = policy.concurrency();
+  report.threads = execution.concurrency();
   return report;
 }
 

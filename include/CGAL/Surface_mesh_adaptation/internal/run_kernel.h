@@ -26,7 +26,7 @@ std::size_t run_kernel(const Execution& execution, TriangleMesh& mesh, const Met
   auto visitor_parameter = choose(np, CGAL::internal_np::visitor, std::ref(nothing));
   auto& visitor = unwrap(visitor_parameter);
   Sweep_counts counts;
-  adapt_in_place(execution, mesh, field, np, [&](const auto& policy, auto& surface) {
+  adapt_in_place(Any_execution(execution), mesh, field, np, [&](const auto& policy, auto& surface) {
     auto kernel = make(policy, surface);
     for (std::size_t i = 0; i < max_sweeps; ++i)
       if (sweep(kernel, counts) == 0 || !visitor.go_on()) break;
