@@ -108,6 +108,7 @@ private:
   std::size_t expected_number_of_vertices() const
   {
     const double sum = reduce(execution_, mesh_.number_of_faces(), 0.0, [&](std::size_t f) {
+      if (mesh_.is_removed_face(Index(f))) return 0.0;
       const Index a = mesh_.corner[3 * f], b = mesh_.corner[3 * f + 1], c = mesh_.corner[3 * f + 2];
       const Vector_3 ab = surface_.points[b] - surface_.points[a], ac = surface_.points[c] - surface_.points[a];
       return face_mass(surface_.metrics[a], surface_.metrics[b], surface_.metrics[c], ab, ac, ab.cross(ac).norm()) / 3;
