@@ -5,6 +5,7 @@
 #include "policies.h"
 #include "shapes.h"
 
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/matching.h>
@@ -160,6 +161,69 @@ TEST(Execution, uses_no_more_threads_than_asked_for)
   });
 }
 
+TEST(Execution, fills_whatever_was_there)
+{
+  for (const std::size_t n : {std::size_t(0), std::size_t(1), SMA::fill_chunk_length, 3 * SMA::fill_chunk_length + 1})
+    for_each_policy([&](const auto& execution, const std::string& name) {
+      SCOPED_TRACE(name);
+      SMA::Buffer<int> buffer(n / 2 + 7, -1);
+      SMA::fill(execution, buffer, n, 5);
+      EXPECT_EQ(buffer.size(), n);
+      EXPECT_EQ(std::count(buffer.begin(), buffer.end(), 5), std::ptrdiff_t(n));
+    });
+}
+
+// Buffers
+
+/// Tells whether its default constructor ran.
+struct Traced
+{
+  int value;
+  Traced() : value(1) {}
+  explicit Traced(int v) : value(v) {}
+};
+
+TEST(Buffer, leaves_new_elements_as_the_memory_is)
+{
+  SMA::Buffer<Traced> buffer(1000, Traced(7)); // with an argument they are made as in any vector
+  for (const Traced& t : buffer) ASSERT_EQ(t.value, 7);
+  const Traced* const memory = buffer.data();
+  buffer.clear();
+  buffer.resize(1000);
+  ASSERT_EQ(buffer.data(), memory);
+  for (const Traced& t : buffer) ASSERT_EQ(t.value, 7);
+  for (std::size_t i = 0; i < buffer.size(); ++i) buffer[i] = Traced(int(i));
+  for (std::size_t i = 0; i < buffer.size(); ++i) ASSERT_EQ(buffer[i].value, int(i));
+}
+
+TEST(Buffer, fetches_memory_once_for_what_is_expected)
+{
+  SMA::Buffer<int> buffer;
+  SMA::resize_and_forget(buffer, 10, 1000);
+  EXPECT_EQ(buffer.size(), 10u);
+  const int* const memory = buffer.data();
+  for (const std::size_t n : {1000, 3, 500}) {
+    SMA::resize_and_forget(buffer, n);
+    EXPECT_EQ(buffer.size(), n);
+    EXPECT_EQ(buffer.data(), memory);
+  }
+  SMA::resize_and_forget(buffer, 5000, 20);
+  EXPECT_EQ(buffer.size(), 5000u);
+}
+
+TEST(Buffer, gives_its_memory_back)
+{
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    SCOPED_TRACE(name);
+    SMA::Buffer<int> a(100000, 1), b;
+    SMA::Buffer<double> c(100000, 1);
+    SMA::release(execution, a, b, c);
+    EXPECT_EQ(a.capacity() + b.capacity() + c.capacity(), 0u);
+    a.push_back(3); // and serves on
+    EXPECT_EQ(a.front(), 3);
+  });
+}
+
 // Graphs
 
 struct Graph
@@ -266,26 +330,42 @@ std::vector<Graph> graphs()
           mesh_graph()};
 }
 
+auto neighbors_in(const Graph& g)
+{
+  return [&g](std::size_t i, const auto& f) {
+    for (const std::uint32_t j : g.neighbors[i]) f(j);
+  };
+}
+
 template <class Execution>
 SMA::Graph_coloring coloring(const Execution& execution, const Graph& g)
 {
-  return SMA::graph_coloring(execution, g.size(), [&](std::size_t i, const auto& f) {
-    for (const std::uint32_t j : g.neighbors[i]) f(j);
-  });
+  return SMA::graph_coloring(execution, g.size(), neighbors_in(g));
 }
 
-std::uint32_t first_fit_colors(const Graph& g)
+/// The first-fit colours in the order of the ids, by a code of their own.
+Ids first_fit_colors(const Graph& g)
 {
-  std::vector<std::uint32_t> color(g.size(), ~0u);
-  std::uint32_t most = 0;
+  Ids color(g.size(), ~0u);
   for (std::size_t i = 0; i < g.size(); ++i) {
     std::set<std::uint32_t> used;
     for (const std::uint32_t j : g.neighbors[i]) used.insert(color[j]);
     color[i] = 0;
     while (used.count(color[i]) != 0) ++color[i];
-    most = (std::max)(most, color[i] + 1);
   }
-  return most;
+  return color;
+}
+
+bool is_proper(const Graph& g, const Ids& color)
+{
+  const auto edges = g.edges();
+  return color.size() == g.size() &&
+         std::all_of(edges.begin(), edges.end(), [&](const auto& e) { return color[e.first] != color[e.second]; });
+}
+
+std::uint32_t number_of_colors(const Ids& color)
+{
+  return color.empty() ? 0 : *std::max_element(color.begin(), color.end()) + 1;
 }
 
 TEST(Graph_coloring, is_proper_and_the_same_with_every_policy)
@@ -293,8 +373,7 @@ TEST(Graph_coloring, is_proper_and_the_same_with_every_policy)
   for (const Graph& g : graphs()) {
     SCOPED_TRACE(g.name);
     const SMA::Graph_coloring first = coloring(SMA::Sequential_execution(), g);
-    ASSERT_EQ(first.color.size(), g.size());
-    for (const auto& e : g.edges()) ASSERT_NE(first.color[e.first], first.color[e.second]);
+    ASSERT_TRUE(is_proper(g, first.color));
     for_each_policy([&](const auto& execution, const std::string& name) {
       EXPECT_EQ(coloring(execution, g).color, first.color) << name;
     });
@@ -310,9 +389,9 @@ TEST(Graph_coloring, uses_few_colors)
       EXPECT_EQ(c.number_of_colors, 0u);
       continue;
     }
-    EXPECT_EQ(c.number_of_colors, *std::max_element(c.color.begin(), c.color.end()) + 1);
+    EXPECT_EQ(c.number_of_colors, number_of_colors(c.color));
     EXPECT_LE(c.number_of_colors, g.max_degree() + 1);
-    EXPECT_LE(c.number_of_colors, first_fit_colors(g) + 3);
+    EXPECT_LE(c.number_of_colors, number_of_colors(first_fit_colors(g)) + 3);
     // each node has neighbours of all lesser colours: no colour could be left out
     for (std::size_t i = 0; i < g.size(); ++i) {
       std::set<std::uint32_t> lesser;
@@ -359,6 +438,17 @@ TEST(Graph_coloring, lists_its_classes)
   EXPECT_EQ(nodes, g.size());
 }
 
+TEST(First_fit_coloring, is_proper_and_first_fit_in_the_order_of_the_ids)
+{
+  for (const Graph& g : graphs()) {
+    SCOPED_TRACE(g.name);
+    const SMA::Graph_coloring c = SMA::first_fit_coloring(g.size(), neighbors_in(g));
+    EXPECT_TRUE(is_proper(g, c.color));
+    EXPECT_EQ(c.color, first_fit_colors(g));
+    EXPECT_EQ(c.number_of_colors, number_of_colors(c.color));
+  }
+}
+
 // Independent sets: candidates are the nodes, resources the closed neighbourhoods
 
 std::uint64_t priority(std::size_t i) { return SMA::task_priority(std::uint32_t(i % 8), std::uint32_t(i), 0); }
@@ -389,7 +479,8 @@ TEST(Independent_set, is_independent_and_the_same_with_every_policy)
     Ids first;
     for_each_policy([&](const auto& execution, const std::string& name) {
       SCOPED_TRACE(name);
-      SMA::Reservations reservations(g.size());
+      SMA::Reservations reservations;
+      reservations.resize(execution, g.size());
       for (int again = 0; again < 2; ++again) { // the slots are free again after each pass
         const Ids set = SMA::independent_set(execution, g.size(), reservations, priority,
                                              [&](std::size_t i, const auto& f) { closed_neighborhood(g, i, f); });
