@@ -309,9 +309,9 @@ Graph complete(std::size_t n)
   return g;
 }
 
-Graph mesh_graph()
+Graph mesh_graph(std::size_t nu = 150, std::size_t nv = 80)
 {
-  const shapes::Soup s = shapes::torus(150, 80);
+  const shapes::Soup s = shapes::torus(nu, nv);
   Graph g = empty_graph("mesh", s.points.size());
   for (const shapes::Triangle& t : s.triangles)
     for (std::size_t i = 0; i < 3; ++i) g.add_edge(t[i], t[(i + 1) % 3]); // each edge twice
@@ -452,6 +452,7 @@ TEST(First_fit_coloring, is_proper_and_first_fit_in_the_order_of_the_ids)
 // Independent sets: candidates are the nodes, resources the closed neighbourhoods
 
 std::uint64_t priority(std::size_t i) { return SMA::task_priority(std::uint32_t(i % 8), std::uint32_t(i), 0); }
+std::uint64_t hashed_priority(std::size_t i) { return SMA::task_priority(0, std::uint32_t(i), 0); }
 
 template <class F>
 void closed_neighborhood(const Graph& g, std::size_t i, const F& f)
@@ -501,24 +502,46 @@ TEST(Independent_set, is_independent_and_the_same_with_every_policy)
   }
 }
 
+template <class Execution, class Priority>
+SMA::Maximal_independent_set maximal_set(const Execution& execution, const Graph& g, const Priority& first)
+{
+  return SMA::maximal_independent_set(execution, g.size(), g.size(), first,
+                                      [&](std::size_t i, const auto& f) { closed_neighborhood(g, i, f); });
+}
+
+using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+template <class Execution, class Priority>
+SMA::Maximal_independent_set maximal_matching(const Execution& execution, const Graph& g, const Edges& edges,
+                                              const Priority& first)
+{
+  return SMA::maximal_matching(execution, edges.size(), g.size(), first, [&](std::size_t i) { return edges[i]; });
+}
+
+/// `extract(execution)` gives `first`, members and rounds, with every policy.
+template <class Extract>
+void expect_same_with_every_policy(const SMA::Maximal_independent_set& first, const Extract& extract)
+{
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    const SMA::Maximal_independent_set again = extract(execution);
+    EXPECT_EQ(again.members, first.members) << name;
+    EXPECT_EQ(again.rounds, first.rounds) << name;
+  });
+}
+
 TEST(Maximal_independent_set, is_independent_maximal_and_the_same_with_every_policy)
 {
   for (const Graph& g : graphs()) {
     SCOPED_TRACE(g.name);
-    const auto set_with = [&](const auto& execution) {
-      return SMA::maximal_independent_set(execution, g.size(), g.size(), priority,
-                                          [&](std::size_t i, const auto& f) { closed_neighborhood(g, i, f); });
-    };
-    const Ids first = set_with(SMA::Sequential_execution());
+    const auto first = maximal_set(SMA::Sequential_execution(), g, priority);
     std::vector<int> taken;
-    ASSERT_TRUE(is_independent(g, first, taken));
+    ASSERT_TRUE(is_independent(g, first.members, taken));
     for (std::size_t i = 0; i < g.size(); ++i) {
       bool is_free = true;
       closed_neighborhood(g, i, [&](std::size_t r) { is_free = is_free && taken[r] == 0; });
       EXPECT_FALSE(is_free) << "node " << i << " could be added";
     }
-    for_each_policy(
-      [&](const auto& execution, const std::string& name) { EXPECT_EQ(set_with(execution), first) << name; });
+    expect_same_with_every_policy(first, [&](const auto& execution) { return maximal_set(execution, g, priority); });
   }
 }
 
@@ -526,21 +549,56 @@ TEST(Maximal_matching, is_a_maximal_matching_and_the_same_with_every_policy)
 {
   for (const Graph& g : graphs()) {
     SCOPED_TRACE(g.name);
-    const auto edges = g.edges();
-    const auto matching = [&](const auto& execution) {
-      return SMA::maximal_matching(execution, edges.size(), g.size(), priority,
-                                   [&](std::size_t i) { return edges[i]; });
-    };
-    const Ids first = matching(SMA::Sequential_execution());
+    const Edges edges = g.edges();
+    const auto first = maximal_matching(SMA::Sequential_execution(), g, edges, priority);
     std::vector<int> uses(g.size(), 0);
-    for (const std::uint32_t i : first) {
+    for (const std::uint32_t i : first.members) {
       ++uses[edges[i].first];
       ++uses[edges[i].second];
     }
     EXPECT_TRUE(std::all_of(uses.begin(), uses.end(), [](int u) { return u <= 1; }));
     for (const auto& e : edges) EXPECT_TRUE(uses[e.first] + uses[e.second] > 0) << "an edge could be added";
-    for_each_policy(
-      [&](const auto& execution, const std::string& name) { EXPECT_EQ(matching(execution), first) << name; });
+    expect_same_with_every_policy(first, [&](const auto& execution) { return maximal_matching(execution, g, edges, priority); });
+  }
+}
+
+TEST(Maximal_independent_set, counts_its_rounds)
+{
+  const SMA::Sequential_execution sequential;
+  EXPECT_EQ(maximal_set(sequential, empty_graph("empty", 0), priority).rounds, 0u);
+  EXPECT_EQ(maximal_set(sequential, empty_graph("edgeless", 10), priority).rounds, 1u);
+  EXPECT_EQ(maximal_set(sequential, complete(80), priority).rounds, 1u); // one wins, and touches all others
+  // a path whose ids are the priorities: each waits for the one before, but every other one loses meanwhile
+  const std::size_t n = 100;
+  const auto chain = SMA::maximal_independent_set(
+    sequential, n, n + 1, [](std::size_t i) { return i; },
+    [](std::size_t i, const auto& f) {
+    f(i);
+    f(i + 1);
+    });
+  EXPECT_EQ(chain.rounds, n / 2);
+  EXPECT_EQ(chain.members.size(), n / 2);
+}
+
+/// Grown 16 times, a graph that takes O(log n) rounds takes a few more, one with long chains up to 16 times as many.
+TEST(Maximal_independent_set, takes_logarithmically_many_rounds)
+{
+  std::vector<std::pair<Graph, Graph>> grown;
+  grown.emplace_back(grid(60), grid(240));
+  grown.emplace_back(mesh_graph(60, 50), mesh_graph(240, 200));
+  grown.emplace_back(r_mat(11, 20000), r_mat(15, 320000));
+  const SMA::Sequential_execution sequential;
+  const auto expect_logarithmic = [](std::size_t n, std::size_t rounds, std::size_t rounds_before) {
+    EXPECT_LE(double(rounds), std::log2(double(n)));
+    EXPECT_LE(rounds, rounds_before + 4);
+  };
+  const auto rounds_of_set = [&](const Graph& g) { return maximal_set(sequential, g, hashed_priority).rounds; };
+  for (const auto& [small, large] : grown) {
+    SCOPED_TRACE(large.name);
+    expect_logarithmic(large.size(), rounds_of_set(large), rounds_of_set(small));
+    const Edges few = small.edges(), many = large.edges();
+    expect_logarithmic(many.size(), maximal_matching(sequential, large, many, hashed_priority).rounds,
+                       maximal_matching(sequential, small, few, hashed_priority).rounds);
   }
 }
 
