@@ -6,6 +6,7 @@
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/Profiled_execution.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/matching.h>
@@ -171,6 +172,33 @@ TEST(Execution, fills_whatever_was_there)
       EXPECT_EQ(buffer.size(), n);
       EXPECT_EQ(std::count(buffer.begin(), buffer.end(), 5), std::ptrdiff_t(n));
     });
+}
+
+TEST(Profiled_execution, records_the_work_and_the_span_of_each_step)
+{
+  const SMA::Profiled_execution execution;
+  volatile double sink = 0;
+  const auto work = [&](std::size_t task) { // the last of three tasks is by far the longest
+    for (std::size_t i = 0; i < (task == 2 ? 3000000u : 300000u); ++i) sink = sink + 1;
+  };
+  execution.run(3, work);
+  execution.run(1, work);
+  ASSERT_EQ(execution.steps().size(), 2u);
+  const SMA::Parallel_step &three = execution.steps()[0], &one = execution.steps()[1];
+  EXPECT_EQ(three.tasks, 3u);
+  EXPECT_EQ(one.tasks, 1u);
+  EXPECT_GT(three.longest, 0.5 * three.work);
+  EXPECT_LT(three.longest, three.work);
+  EXPECT_DOUBLE_EQ(one.longest, one.work);
+}
+
+TEST(Profiled_execution, predicts_by_the_bound_of_brent)
+{
+  const SMA::Parallel_step step{5, 8, 2}, alone{1, 3, 3};
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds(step, 1, 0.1), 8);
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds(step, 4, 0.1), 8.0 / 4 + 2 * 3.0 / 4 + 0.2);
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds(alone, 4, 0.1), 3);
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds({step, alone}, 10, 4, 0.1), 10 + 3.7 + 3);
 }
 
 // Buffers
