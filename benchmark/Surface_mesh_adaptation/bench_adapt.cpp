@@ -6,40 +6,17 @@
 //
 // Run one mesh with --benchmark_filter=elephant.
 
-#include <CGAL/surface_mesh_adaptation.h>
-
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include "common.h"
 
 #include <benchmark/benchmark.h>
 
-#include <cmath>
-#include <functional>
-#include <stdexcept>
 #include <string>
 
 namespace {
 
-namespace SMA = CGAL::Surface_mesh_adaptation;
-using Point = CGAL::Simple_cartesian<double>::Point_3;
-using Mesh = CGAL::Surface_mesh<Point>;
-
-Mesh read_mesh(const std::string& name)
-{
-  Mesh mesh;
-  const std::string file = CGAL::data_file_path("meshes/" + name + ".off");
-  if (!CGAL::IO::read_polygon_mesh(file, mesh)) throw std::runtime_error(file + " cannot be read");
-  return mesh;
-}
-
-double mean_edge_length(const Mesh& mesh)
-{
-  double sum = 0;
-  for (const auto e : mesh.edges())
-    sum += std::sqrt(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
-  return sum / double(mesh.number_of_edges());
-}
+using bench::Mesh;
+using bench::mean_edge_length;
+namespace SMA = bench::SMA;
 
 /// Adapts a copy of `input` in every iteration.
 template <class Execution, class Field>
@@ -68,7 +45,7 @@ void register_jobs(const std::string& mesh_name, const Execution& execution, con
 {
   const auto add = [&](const std::string& job, const auto& make_field) {
     benchmark::RegisterBenchmark((mesh_name + "/" + job + "/" + policy).c_str(), [=](benchmark::State& state) {
-      const Mesh input = read_mesh(mesh_name);
+      const Mesh input = bench::read_mesh(mesh_name);
       adapt(state, input, execution, make_field(input));
     })->Unit(benchmark::kMillisecond)->UseRealTime();
   };

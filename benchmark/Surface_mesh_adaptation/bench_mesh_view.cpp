@@ -3,29 +3,21 @@
 // Why the kernels work on a corner table and not on the user's `Surface_mesh`: the price of a walk around every vertex
 // on both, and of the way in and out, which is paid once for a whole adaptation.
 
-#include <CGAL/surface_mesh_adaptation.h>
-
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include "common.h"
 
 #include <benchmark/benchmark.h>
 
-#include <string>
-
 namespace {
 
-namespace SMA = CGAL::Surface_mesh_adaptation;
-using Point = CGAL::Simple_cartesian<double>::Point_3;
-using Mesh = CGAL::Surface_mesh<Point>;
+using bench::Mesh;
+namespace SMA = bench::SMA;
 const SMA::Sequential_execution sequential;
 
 /// A mesh of half a million vertices in a good order.
 const Mesh& large_mesh()
 {
   static const Mesh mesh = [] {
-    Mesh m;
-    CGAL::IO::read_polygon_mesh(CGAL::data_file_path("meshes/bunny00.off"), m);
+    Mesh m = bench::read_mesh("bunny00");
     SMA::adapt_surface_mesh(m, SMA::Uniform_metric_field(0.0024));
     return m;
   }();

@@ -22,6 +22,9 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -126,6 +129,12 @@ protected:
     EXPECT_NE(r.err.find(message), std::string::npos) << r.err;
     EXPECT_EQ(content(path("out.off")), "precious");
     EXPECT_EQ(files(), before);
+  }
+
+  /// The same for many `cases`, the file at fault and the arguments.
+  void expect_failures_that_name(int status, const std::vector<std::pair<std::string, std::string>>& cases) const
+  {
+    for (const auto& [file, arguments] : cases) expect_failure(status, arguments, file);
   }
 
   void expect_success(const std::string& arguments) const
@@ -264,7 +273,7 @@ TEST_F(Adapt_mesh, refuses_a_command_line_that_makes_no_sense)
   expect_failure(2, "in.off");
   expect_failure(2, "in.off out.off");
   expect_failure(2, "in.off out.off third.off --size 0.1");
-  expect_failure(2, "in.off out.off --size 0.1 --curvature 0.01", "exactly one");
+  expect_failure(2, "in.off out.off --size 0.1 --curvature 0.01", "go together");
   expect_failure(2, "in.off out.off --nonsense", "nonsense");
   expect_failure(2, "in.off out.off --siz 0.1", "siz");
   expect_failure(2, "in.off out.off --size", "size");
@@ -344,11 +353,11 @@ TEST_F(Adapt_mesh, refuses_unknown_formats)
 
 TEST_F(Adapt_mesh, refuses_files_that_are_not_there)
 {
-  expect_failure(3, "absent.off out.off --size 0.1", "absent.off");
-  expect_failure(3, "absent.mesh out.off --size 0.1", "absent.mesh");
-  expect_failure(3, "in.off out.off --metric absent.sol", "absent.sol");
   fs::create_directory(path("folder.off"));
-  expect_failure(3, "folder.off out.off --size 0.1", "folder.off");
+  expect_failures_that_name(3, {{"absent.off", "absent.off out.off --size 0.1"},
+                                {"absent.mesh", "absent.mesh out.off --size 0.1"},
+                                {"absent.sol", "in.off out.off --metric absent.sol"},
+                                {"folder.off", "folder.off out.off --size 0.1"}});
 }
 
 TEST_F(Adapt_mesh, refuses_malformed_files_and_names_the_line)
@@ -409,11 +418,11 @@ TEST_F(Adapt_mesh, refuses_metrics_that_do_not_fit)
 
 TEST_F(Adapt_mesh, fails_early_where_it_may_not_write)
 {
-  expect_failure(1, "in.off absent/out.off --size 0.1", "absent/out.off");
-  expect_failure(1, "in.off out.off --size 0.1 --report absent/out.json", "absent/out.json");
-  expect_failure(1, "in.off out.off --size 0.1 --output-metric absent/out.sol", "absent/out.sol");
   fs::create_directory(path("folder.off"));
-  expect_failure(1, "in.off folder.off --size 0.1", "folder.off");
+  expect_failures_that_name(1, {{"absent/out.off", "in.off absent/out.off --size 0.1"},
+                                {"absent/out.json", "in.off out.off --size 0.1 --report absent/out.json"},
+                                {"absent/out.sol", "in.off out.off --size 0.1 --output-metric absent/out.sol"},
+                                {"folder.off", "in.off folder.off --size 0.1"}});
 }
 
 TEST_F(Adapt_mesh, leaves_no_part_of_a_file)

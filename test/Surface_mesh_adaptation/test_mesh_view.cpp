@@ -4,9 +4,12 @@
 // parallelism rests: that operations with disjoint claims may be applied together, in any order.
 
 #include "checks.h"
+#include "policies.h"
 #include "shapes.h"
 
+#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/face_graph.h>
+#include <CGAL/Surface_mesh_adaptation/fill_holes.h>
 #include <CGAL/Surface_mesh_adaptation/restructure.h>
 
 #include <CGAL/Polyhedron_3.h>
@@ -241,40 +244,41 @@ TEST(Mesh_view, keeps_both_curves_of_a_wedge_that_vanishes)
 
 // Independence
 
-TEST(Independence, of_collapses_with_disjoint_closed_rings)
+/// Applies random maximal sets of operations with disjoint claims to many surfaces, several rounds on each; returns the
+/// number of operations.
+template <class Candidates, class Claims, class Apply>
+std::size_t apply_independent_sets(const Candidates& candidates, const Claims& claims, const Apply& apply)
 {
-  std::size_t collapses = 0;
+  std::size_t applied = 0;
   for_many_views(400, [&](Mesh_view& m, Random& random) {
     add_features(m, random.below(2) == 0 ? 0.1 : 0, random);
     const Topology before = checks::topology(m);
     for (int round = 0; round < 4; ++round) {
-      const auto chosen = independent(m, collapsible_edges(m), random, [&](const Mesh_view::Directed_edge& e) {
-        return closed_ring(m, m.vanishing_vertex(e));
-      });
-      for (const auto& e : chosen) m.collapse(e);
+      const auto chosen = independent(m, candidates(m), random, [&](const auto& o) { return claims(m, o); });
+      for (const auto& operation : chosen) apply(m, operation);
       ASSERT_TRUE(checks::is_valid(m));
       ASSERT_EQ(checks::topology(m), before);
-      collapses += chosen.size();
+      applied += chosen.size();
     }
   });
-  EXPECT_GT(collapses, 10000u);
+  return applied;
+}
+
+std::vector<Index> ring_of_vanishing(const Mesh_view& m, const Mesh_view::Directed_edge& e)
+{
+  return closed_ring(m, m.vanishing_vertex(e));
+}
+
+TEST(Independence, of_collapses_with_disjoint_closed_rings)
+{
+  EXPECT_GT(apply_independent_sets(collapsible_edges, ring_of_vanishing,
+                                   [](Mesh_view& m, const Mesh_view::Directed_edge& e) { m.collapse(e); }),
+            10000u);
 }
 
 TEST(Independence, of_flips_with_disjoint_vertices)
 {
-  std::size_t flips = 0;
-  for_many_views(400, [&](Mesh_view& m, Random& random) {
-    add_features(m, random.below(2) == 0 ? 0.1 : 0, random);
-    const Topology before = checks::topology(m);
-    for (int round = 0; round < 4; ++round) {
-      const auto chosen = independent(m, flippable_edges(m), random, [&](Index h) { return four_vertices(m, h); });
-      for (const Index h : chosen) m.flip(h);
-      ASSERT_TRUE(checks::is_valid(m));
-      ASSERT_EQ(checks::topology(m), before);
-      flips += chosen.size();
-    }
-  });
-  EXPECT_GT(flips, 10000u);
+  EXPECT_GT(apply_independent_sets(flippable_edges, four_vertices, [](Mesh_view& m, Index h) { m.flip(h); }), 10000u);
 }
 
 /// With claims that are too small something must break, else the two tests above prove nothing.
@@ -308,12 +312,21 @@ TEST(Independence, needs_the_whole_neighbourhood)
   EXPECT_GT(broken_by_collapses, 20u);
 }
 
+/// Collapses at most `most` edges at random.
+void make_holes(Mesh_view& m, std::size_t most, Random& random)
+{
+  std::vector<Mesh_view::Directed_edge> chosen = independent(
+    m, collapsible_edges(m), random, [&](const Mesh_view::Directed_edge& e) { return ring_of_vanishing(m, e); });
+  chosen.resize((std::min)(most, chosen.size()));
+  for (const auto& e : chosen) m.collapse(e);
+}
+
 // Restructuring
 
 /// Marks edges at random, on both sides, and a random diagonal where there is a choice.
 SMA::Buffer<std::uint8_t> random_marks(const Mesh_view& m, double share, Random& random)
 {
-  SMA::Buffer<std::uint8_t> codes(m.number_of_faces(), 0);
+  SMA::Buffer<std::uint8_t> codes(m.number_of_faces(), std::uint8_t(0));
   const auto mark = [&](Index h) { codes[h / 3] = std::uint8_t(codes[h / 3] | 1u << (h % 3)); };
   for (Index h = 0; h < m.number_of_halfedges(); ++h) {
     if (m.is_removed_face(h / 3) || !m.is_edge_owner(h) || random.real() >= share) continue;
@@ -365,11 +378,7 @@ TEST(Restructuring, splits_any_set_of_edges)
       ASSERT_EQ(new_vertices, plan.number_of_vertices());
       ASSERT_EQ(number_of_feature_edges(refined), features);
       m = refined;
-      // holes for the next round
-      const auto chosen = independent(m, collapsible_edges(m), random, [&](const Mesh_view::Directed_edge& e) {
-        return closed_ring(m, m.vanishing_vertex(e));
-      });
-      for (const auto& e : chosen) m.collapse(e);
+      make_holes(m, m.number_of_vertices(), random); // for the next round
     }
   });
 }
@@ -416,6 +425,209 @@ TEST(Restructuring, knows_all_sixteen_patterns)
     EXPECT_DOUBLE_EQ(sum, 1);
   }
   EXPECT_NE(Split_pattern::of(3).child, Split_pattern::of(11).child);
+}
+
+// Holes
+
+/// The faces as labels of their vertices and curves of their edges, in an order that does not depend on any numbering.
+std::vector<std::array<Index, 6>> labelled_faces(const Mesh_view& m, const std::vector<Index>& label)
+{
+  std::vector<std::array<Index, 6>> faces;
+  for (Index f = 0; f < m.number_of_faces(); ++f) {
+    if (m.is_removed_face(f)) continue;
+    std::array<Index, 6> face{};
+    std::size_t first = 0; // the corner with the least label
+    for (std::size_t i = 1; i < 3; ++i)
+      if (label[m.corner[3 * f + i]] < label[m.corner[3 * f + first]]) first = i;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t h = 3 * f + (first + i) % 3;
+      face[i] = label[m.corner[h]];
+      face[3 + i] = m.curve[h];
+    }
+    faces.push_back(face);
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+/// Fills the holes of `m` and compares it with what it was.
+void expect_same_without_holes(Mesh_view& m)
+{
+  std::vector<Index> label(m.number_of_vertices()), vertex_holes, face_holes;
+  std::iota(label.begin(), label.end(), Index(0));
+  for (Index v = 0; v < m.number_of_vertices(); ++v)
+    if (m.is_removed_vertex(v)) vertex_holes.push_back(v);
+  for (Index f = 0; f < m.number_of_faces(); ++f)
+    if (m.is_removed_face(f)) face_holes.push_back(f);
+  const auto before = labelled_faces(m, label);
+  const std::size_t vertices = m.number_of_vertices() - vertex_holes.size();
+  std::size_t moved = 0;
+  SMA::fill_holes(m, vertex_holes, face_holes, [&](Index from, Index to) {
+    label[to] = label[from];
+    ++moved;
+  });
+  ASSERT_EQ(m.number_of_vertices(), vertices);
+  ASSERT_EQ(m.number_of_faces(), before.size());
+  ASSERT_EQ(m.twin.size(), m.corner.size());
+  ASSERT_EQ(m.curve.size(), m.corner.size());
+  for (Index v = 0; v < vertices; ++v) ASSERT_FALSE(m.is_removed_vertex(v));
+  ASSERT_TRUE(checks::is_valid(m));
+  ASSERT_EQ(labelled_faces(m, label), before);
+  ASSERT_LE(moved, vertex_holes.size());
+}
+
+TEST(Fill_holes, keeps_the_mesh_and_closes_few_and_many_holes)
+{
+  std::size_t with_holes = 0;
+  for_many_views(60, [&](Mesh_view& m, Random& random) {
+    add_features(m, 0.2, random);
+    const std::size_t n = m.number_of_vertices();
+    for (const std::size_t most : {std::size_t(1), n / 4, n}) {
+      make_holes(m, most, random);
+      with_holes += m.number_of_vertices() > std::size_t(std::count_if(m.outgoing.begin(), m.outgoing.end(),
+                                                                      [](Index h) { return h != no_index; }));
+      ASSERT_NO_FATAL_FAILURE(expect_same_without_holes(m));
+    }
+  });
+  EXPECT_GT(with_holes, 500u);
+}
+
+TEST(Fill_holes, cuts_off_holes_at_the_end_and_moves_nothing_into_them)
+{
+  std::size_t tried = 0;
+  for_many_views(20, [&](Mesh_view& m, Random&) {
+    for (std::size_t i = 0; i < 3; ++i) { // the last vertices vanish one after the other
+      const auto edges = collapsible_edges(m);
+      const auto e = std::find_if(edges.begin(), edges.end(), [&](const Mesh_view::Directed_edge& x) {
+        return m.vanishing_vertex(x) + 1 + i == m.number_of_vertices();
+      });
+      if (e == edges.end()) break;
+      m.collapse(*e);
+      ++tried;
+    }
+    ASSERT_NO_FATAL_FAILURE(expect_same_without_holes(m));
+  });
+  EXPECT_GT(tried, 100u);
+}
+
+TEST(Fill_holes, leaves_a_mesh_without_holes_alone)
+{
+  const Mesh_view before = shapes::view(shapes::sphere(1));
+  Mesh_view m = before;
+  const std::vector<Index> none;
+  SMA::fill_holes(m, none, none, [](Index, Index) { FAIL() << "there is nothing to move"; });
+  EXPECT_EQ(m.corner, before.corner);
+  EXPECT_EQ(m.twin, before.twin);
+  EXPECT_EQ(m.outgoing, before.outgoing);
+}
+
+// Blocks
+
+/// `soup` with its vertices in random order: every block touches many others.
+Soup with_shuffled_vertices(const Soup& soup, Random& random)
+{
+  std::vector<Index> place(soup.points.size());
+  std::iota(place.begin(), place.end(), Index(0));
+  random.shuffle(place);
+  Soup result = soup;
+  for (std::size_t v = 0; v < place.size(); ++v) result.points[place[v]] = soup.points[v];
+  for (Triangle& t : result.triangles)
+    for (Index& v : t) v = place[v];
+  return result;
+}
+
+/// Meshes of several blocks, closed and open, in a good order and in none.
+std::vector<Mesh_view> views_of_several_blocks()
+{
+  Random random(11);
+  std::vector<Mesh_view> result;
+  for (const Soup& soup : {shapes::torus(120, 70), shapes::square(80), shapes::open_cylinder(50, 90, 2)}) {
+    result.push_back(shapes::view(soup));
+    result.push_back(shapes::view(with_shuffled_vertices(soup, random)));
+  }
+  return result;
+}
+
+std::vector<Index> random_vertices(const Mesh_view& m, double share, Random& random)
+{
+  std::vector<Index> result;
+  for (Index v = 0; v < m.number_of_vertices(); ++v)
+    if (random.real() < share) result.push_back(v);
+  return result;
+}
+
+TEST(Border_of_blocks, colors_blocks_differently_if_an_edge_of_a_listed_vertex_joins_them)
+{
+  Random random(12);
+  std::size_t edges_between_blocks = 0;
+  for (const Mesh_view& m : views_of_several_blocks())
+    for (const double share : {0.02, 0.2, 1.0}) {
+      const std::vector<Index> vertices = random_vertices(m, share, random);
+      const SMA::Border_of_blocks border(SMA::Sequential_execution(), m, vertices);
+      std::vector<std::size_t> color(border.number_of_blocks(), ~std::size_t(0));
+      const auto classes = border.blocks_by_color();
+      for (std::size_t c = 0; c < classes.size(); ++c)
+        for (const Index b : classes[c]) color[b] = c;
+      for (std::size_t b = 0; b < border.number_of_blocks(); ++b)
+        for (std::size_t i = border.begin(b); i < border.end(b); ++i) {
+          ASSERT_EQ(vertices[i] / SMA::block_length, b);
+          m.for_each_neighbor(vertices[i], [&](Index w) {
+            const std::size_t other = w / SMA::block_length;
+            if (other == b) return;
+            ++edges_between_blocks;
+            ASSERT_NE(color[other], color[b]);
+            ASSERT_TRUE(border.stands_still(w, b));
+          });
+        }
+    }
+  EXPECT_GT(edges_between_blocks, 10000u);
+}
+
+TEST(Sweep_block_borders, visits_each_vertex_once_and_lists_the_same_with_every_policy)
+{
+  Random random(13);
+  for (const Mesh_view& m : views_of_several_blocks()) {
+    const std::vector<Index> vertices = random_vertices(m, 0.3, random);
+    std::vector<Index> first;
+    for_each_policy([&](const auto& execution, const std::string& name) {
+      SCOPED_TRACE(name);
+      std::vector<int> visits(m.number_of_vertices(), 0);
+      SMA::Sweep_counts counts;
+      const std::vector<Index> odd = SMA::sweep_block_borders(
+        execution, m, vertices, counts, [&](Index v, const auto&, SMA::Sweep_counts& c, std::vector<Index>& list) {
+        ++visits[v];
+        ++c.candidates;
+        if (v % 2 == 1) list.push_back(v);
+        });
+      EXPECT_EQ(counts.candidates, vertices.size());
+      for (const Index v : vertices) EXPECT_EQ(visits[v], 1);
+      EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), std::size_t(0)), vertices.size());
+      if (first.empty()) first = odd;
+      EXPECT_EQ(odd, first);
+    });
+    EXPECT_FALSE(first.empty());
+  }
+}
+
+TEST(Sweep_blocks, visits_each_vertex_once_within_its_block)
+{
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    SCOPED_TRACE(name);
+    const std::size_t n = 5 * SMA::block_length + 3;
+    std::vector<int> visits(n, 0);
+    SMA::Sweep_counts counts;
+    const std::vector<Index> deferred = SMA::sweep_blocks(
+      execution, n, counts, [&](Index v, const SMA::Block& block, SMA::Sweep_counts& c, std::vector<Index>& list) {
+      ++visits[v];
+      ++c.applied;
+      if (!block.contains(v) || v % 100 == 0) list.push_back(v);
+      });
+    EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), std::ptrdiff_t(n));
+    EXPECT_EQ(counts.applied, n);
+    EXPECT_EQ(counts.deferred, deferred.size());
+    ASSERT_EQ(deferred.size(), (n + 99) / 100);
+    for (std::size_t i = 0; i < deferred.size(); ++i) EXPECT_EQ(deferred[i], 100 * i);
+  });
 }
 
 // Face graphs

@@ -5,6 +5,8 @@
 #include "policies.h"
 #include "shapes.h"
 
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/Profiled_execution.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/matching.h>
@@ -160,6 +162,96 @@ TEST(Execution, uses_no_more_threads_than_asked_for)
   });
 }
 
+TEST(Execution, fills_whatever_was_there)
+{
+  for (const std::size_t n : {std::size_t(0), std::size_t(1), SMA::fill_chunk_length, 3 * SMA::fill_chunk_length + 1})
+    for_each_policy([&](const auto& execution, const std::string& name) {
+      SCOPED_TRACE(name);
+      SMA::Buffer<int> buffer(n / 2 + 7, -1);
+      SMA::fill(execution, buffer, n, 5);
+      EXPECT_EQ(buffer.size(), n);
+      EXPECT_EQ(std::count(buffer.begin(), buffer.end(), 5), std::ptrdiff_t(n));
+    });
+}
+
+TEST(Profiled_execution, records_the_work_and_the_span_of_each_step)
+{
+  const SMA::Profiled_execution execution;
+  volatile double sink = 0;
+  const auto work = [&](std::size_t task) { // the last of three tasks is by far the longest
+    for (std::size_t i = 0; i < (task == 2 ? 3000000u : 300000u); ++i) sink = sink + 1;
+  };
+  execution.run(3, work);
+  execution.run(1, work);
+  ASSERT_EQ(execution.steps().size(), 2u);
+  const SMA::Parallel_step &three = execution.steps()[0], &one = execution.steps()[1];
+  EXPECT_EQ(three.tasks, 3u);
+  EXPECT_EQ(one.tasks, 1u);
+  EXPECT_GT(three.longest, 0.5 * three.work);
+  EXPECT_LT(three.longest, three.work);
+  EXPECT_DOUBLE_EQ(one.longest, one.work);
+}
+
+TEST(Profiled_execution, predicts_by_the_bound_of_brent)
+{
+  const SMA::Parallel_step step{5, 8, 2}, alone{1, 3, 3};
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds(step, 1, 0.1), 8);
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds(step, 4, 0.1), 8.0 / 4 + 2 * 3.0 / 4 + 0.2);
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds(alone, 4, 0.1), 3);
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds({step, alone}, 10, 4, 0.1), 10 + 3.7 + 3);
+}
+
+// Buffers
+
+/// Tells whether its default constructor ran.
+struct Traced
+{
+  int value;
+  Traced() : value(1) {}
+  explicit Traced(int v) : value(v) {}
+};
+
+TEST(Buffer, leaves_new_elements_as_the_memory_is)
+{
+  SMA::Buffer<Traced> buffer(1000, Traced(7)); // with an argument they are made as in any vector
+  for (const Traced& t : buffer) ASSERT_EQ(t.value, 7);
+  const Traced* const memory = buffer.data();
+  buffer.clear();
+  buffer.resize(1000);
+  ASSERT_EQ(buffer.data(), memory);
+  for (const Traced& t : buffer) ASSERT_EQ(t.value, 7);
+  for (std::size_t i = 0; i < buffer.size(); ++i) buffer[i] = Traced(int(i));
+  for (std::size_t i = 0; i < buffer.size(); ++i) ASSERT_EQ(buffer[i].value, int(i));
+}
+
+TEST(Buffer, fetches_memory_once_for_what_is_expected)
+{
+  SMA::Buffer<int> buffer;
+  SMA::resize_and_forget(buffer, 10, 1000);
+  EXPECT_EQ(buffer.size(), 10u);
+  const int* const memory = buffer.data();
+  for (const std::size_t n : {1000, 3, 500}) {
+    SMA::resize_and_forget(buffer, n);
+    EXPECT_EQ(buffer.size(), n);
+    EXPECT_EQ(buffer.data(), memory);
+  }
+  SMA::resize_and_forget(buffer, 5000, 20);
+  EXPECT_EQ(buffer.size(), 5000u);
+}
+
+TEST(Buffer, gives_its_memory_back)
+{
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    SCOPED_TRACE(name);
+    SMA::Buffer<int> a(100000, 1), b;
+    SMA::Buffer<double> c(100000, 1);
+    SMA::release(execution, a, b, c);
+    EXPECT_EQ(a.capacity() + b.capacity() + c.capacity(), 0u);
+    a.push_back(3); // and serves on
+    EXPECT_EQ(a.front(), 3);
+  });
+}
+
 // Graphs
 
 struct Graph
@@ -245,9 +337,9 @@ Graph complete(std::size_t n)
   return g;
 }
 
-Graph mesh_graph()
+Graph mesh_graph(std::size_t nu = 150, std::size_t nv = 80)
 {
-  const shapes::Soup s = shapes::torus(150, 80);
+  const shapes::Soup s = shapes::torus(nu, nv);
   Graph g = empty_graph("mesh", s.points.size());
   for (const shapes::Triangle& t : s.triangles)
     for (std::size_t i = 0; i < 3; ++i) g.add_edge(t[i], t[(i + 1) % 3]); // each edge twice
@@ -266,26 +358,42 @@ std::vector<Graph> graphs()
           mesh_graph()};
 }
 
+auto neighbors_in(const Graph& g)
+{
+  return [&g](std::size_t i, const auto& f) {
+    for (const std::uint32_t j : g.neighbors[i]) f(j);
+  };
+}
+
 template <class Execution>
 SMA::Graph_coloring coloring(const Execution& execution, const Graph& g)
 {
-  return SMA::graph_coloring(execution, g.size(), [&](std::size_t i, const auto& f) {
-    for (const std::uint32_t j : g.neighbors[i]) f(j);
-  });
+  return SMA::graph_coloring(execution, g.size(), neighbors_in(g));
 }
 
-std::uint32_t first_fit_colors(const Graph& g)
+/// The first-fit colours in the order of the ids, by a code of their own.
+Ids first_fit_colors(const Graph& g)
 {
-  std::vector<std::uint32_t> color(g.size(), ~0u);
-  std::uint32_t most = 0;
+  Ids color(g.size(), ~0u);
   for (std::size_t i = 0; i < g.size(); ++i) {
     std::set<std::uint32_t> used;
     for (const std::uint32_t j : g.neighbors[i]) used.insert(color[j]);
     color[i] = 0;
     while (used.count(color[i]) != 0) ++color[i];
-    most = (std::max)(most, color[i] + 1);
   }
-  return most;
+  return color;
+}
+
+bool is_proper(const Graph& g, const Ids& color)
+{
+  const auto edges = g.edges();
+  return color.size() == g.size() &&
+         std::all_of(edges.begin(), edges.end(), [&](const auto& e) { return color[e.first] != color[e.second]; });
+}
+
+std::uint32_t number_of_colors(const Ids& color)
+{
+  return color.empty() ? 0 : *std::max_element(color.begin(), color.end()) + 1;
 }
 
 TEST(Graph_coloring, is_proper_and_the_same_with_every_policy)
@@ -293,8 +401,7 @@ TEST(Graph_coloring, is_proper_and_the_same_with_every_policy)
   for (const Graph& g : graphs()) {
     SCOPED_TRACE(g.name);
     const SMA::Graph_coloring first = coloring(SMA::Sequential_execution(), g);
-    ASSERT_EQ(first.color.size(), g.size());
-    for (const auto& e : g.edges()) ASSERT_NE(first.color[e.first], first.color[e.second]);
+    ASSERT_TRUE(is_proper(g, first.color));
     for_each_policy([&](const auto& execution, const std::string& name) {
       EXPECT_EQ(coloring(execution, g).color, first.color) << name;
     });
@@ -310,9 +417,9 @@ TEST(Graph_coloring, uses_few_colors)
       EXPECT_EQ(c.number_of_colors, 0u);
       continue;
     }
-    EXPECT_EQ(c.number_of_colors, *std::max_element(c.color.begin(), c.color.end()) + 1);
+    EXPECT_EQ(c.number_of_colors, number_of_colors(c.color));
     EXPECT_LE(c.number_of_colors, g.max_degree() + 1);
-    EXPECT_LE(c.number_of_colors, first_fit_colors(g) + 3);
+    EXPECT_LE(c.number_of_colors, number_of_colors(first_fit_colors(g)) + 3);
     // each node has neighbours of all lesser colours: no colour could be left out
     for (std::size_t i = 0; i < g.size(); ++i) {
       std::set<std::uint32_t> lesser;
@@ -359,9 +466,21 @@ TEST(Graph_coloring, lists_its_classes)
   EXPECT_EQ(nodes, g.size());
 }
 
+TEST(First_fit_coloring, is_proper_and_first_fit_in_the_order_of_the_ids)
+{
+  for (const Graph& g : graphs()) {
+    SCOPED_TRACE(g.name);
+    const SMA::Graph_coloring c = SMA::first_fit_coloring(g.size(), neighbors_in(g));
+    EXPECT_TRUE(is_proper(g, c.color));
+    EXPECT_EQ(c.color, first_fit_colors(g));
+    EXPECT_EQ(c.number_of_colors, number_of_colors(c.color));
+  }
+}
+
 // Independent sets: candidates are the nodes, resources the closed neighbourhoods
 
 std::uint64_t priority(std::size_t i) { return SMA::task_priority(std::uint32_t(i % 8), std::uint32_t(i), 0); }
+std::uint64_t hashed_priority(std::size_t i) { return SMA::task_priority(0, std::uint32_t(i), 0); }
 
 template <class F>
 void closed_neighborhood(const Graph& g, std::size_t i, const F& f)
@@ -390,7 +509,7 @@ TEST(Independent_set, is_independent_and_the_same_with_every_policy)
     for_each_policy([&](const auto& execution, const std::string& name) {
       SCOPED_TRACE(name);
       SMA::Reservations reservations;
-      reservations.resize(SMA::Sequential_execution(), g.size());
+      reservations.resize(execution, g.size());
       for (int again = 0; again < 2; ++again) { // the slots are free again after each pass
         const Ids set = SMA::independent_set(execution, g.size(), reservations, priority,
                                              [&](std::size_t i, const auto& f) { closed_neighborhood(g, i, f); });
@@ -411,24 +530,46 @@ TEST(Independent_set, is_independent_and_the_same_with_every_policy)
   }
 }
 
+template <class Execution, class Priority>
+SMA::Maximal_independent_set maximal_set(const Execution& execution, const Graph& g, const Priority& first)
+{
+  return SMA::maximal_independent_set(execution, g.size(), g.size(), first,
+                                      [&](std::size_t i, const auto& f) { closed_neighborhood(g, i, f); });
+}
+
+using Edges = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+template <class Execution, class Priority>
+SMA::Maximal_independent_set maximal_matching(const Execution& execution, const Graph& g, const Edges& edges,
+                                              const Priority& first)
+{
+  return SMA::maximal_matching(execution, edges.size(), g.size(), first, [&](std::size_t i) { return edges[i]; });
+}
+
+/// `extract(execution)` gives `first`, members and rounds, with every policy.
+template <class Extract>
+void expect_same_with_every_policy(const SMA::Maximal_independent_set& first, const Extract& extract)
+{
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    const SMA::Maximal_independent_set again = extract(execution);
+    EXPECT_EQ(again.members, first.members) << name;
+    EXPECT_EQ(again.rounds, first.rounds) << name;
+  });
+}
+
 TEST(Maximal_independent_set, is_independent_maximal_and_the_same_with_every_policy)
 {
   for (const Graph& g : graphs()) {
     SCOPED_TRACE(g.name);
-    const auto set_with = [&](const auto& execution) {
-      return SMA::maximal_independent_set(execution, g.size(), g.size(), priority,
-                                          [&](std::size_t i, const auto& f) { closed_neighborhood(g, i, f); });
-    };
-    const Ids first = set_with(SMA::Sequential_execution());
+    const auto first = maximal_set(SMA::Sequential_execution(), g, priority);
     std::vector<int> taken;
-    ASSERT_TRUE(is_independent(g, first, taken));
+    ASSERT_TRUE(is_independent(g, first.members, taken));
     for (std::size_t i = 0; i < g.size(); ++i) {
       bool is_free = true;
       closed_neighborhood(g, i, [&](std::size_t r) { is_free = is_free && taken[r] == 0; });
       EXPECT_FALSE(is_free) << "node " << i << " could be added";
     }
-    for_each_policy(
-      [&](const auto& execution, const std::string& name) { EXPECT_EQ(set_with(execution), first) << name; });
+    expect_same_with_every_policy(first, [&](const auto& execution) { return maximal_set(execution, g, priority); });
   }
 }
 
@@ -436,21 +577,56 @@ TEST(Maximal_matching, is_a_maximal_matching_and_the_same_with_every_policy)
 {
   for (const Graph& g : graphs()) {
     SCOPED_TRACE(g.name);
-    const auto edges = g.edges();
-    const auto matching = [&](const auto& execution) {
-      return SMA::maximal_matching(execution, edges.size(), g.size(), priority,
-                                   [&](std::size_t i) { return edges[i]; });
-    };
-    const Ids first = matching(SMA::Sequential_execution());
+    const Edges edges = g.edges();
+    const auto first = maximal_matching(SMA::Sequential_execution(), g, edges, priority);
     std::vector<int> uses(g.size(), 0);
-    for (const std::uint32_t i : first) {
+    for (const std::uint32_t i : first.members) {
       ++uses[edges[i].first];
       ++uses[edges[i].second];
     }
     EXPECT_TRUE(std::all_of(uses.begin(), uses.end(), [](int u) { return u <= 1; }));
     for (const auto& e : edges) EXPECT_TRUE(uses[e.first] + uses[e.second] > 0) << "an edge could be added";
-    for_each_policy(
-      [&](const auto& execution, const std::string& name) { EXPECT_EQ(matching(execution), first) << name; });
+    expect_same_with_every_policy(first, [&](const auto& execution) { return maximal_matching(execution, g, edges, priority); });
+  }
+}
+
+TEST(Maximal_independent_set, counts_its_rounds)
+{
+  const SMA::Sequential_execution sequential;
+  EXPECT_EQ(maximal_set(sequential, empty_graph("empty", 0), priority).rounds, 0u);
+  EXPECT_EQ(maximal_set(sequential, empty_graph("edgeless", 10), priority).rounds, 1u);
+  EXPECT_EQ(maximal_set(sequential, complete(80), priority).rounds, 1u); // one wins, and touches all others
+  // a path whose ids are the priorities: each waits for the one before, but every other one loses meanwhile
+  const std::size_t n = 100;
+  const auto chain = SMA::maximal_independent_set(
+    sequential, n, n + 1, [](std::size_t i) { return i; },
+    [](std::size_t i, const auto& f) {
+    f(i);
+    f(i + 1);
+    });
+  EXPECT_EQ(chain.rounds, n / 2);
+  EXPECT_EQ(chain.members.size(), n / 2);
+}
+
+/// Grown 16 times, a graph that takes O(log n) rounds takes a few more, one with long chains up to 16 times as many.
+TEST(Maximal_independent_set, takes_logarithmically_many_rounds)
+{
+  std::vector<std::pair<Graph, Graph>> grown;
+  grown.emplace_back(grid(60), grid(240));
+  grown.emplace_back(mesh_graph(60, 50), mesh_graph(240, 200));
+  grown.emplace_back(r_mat(11, 20000), r_mat(15, 320000));
+  const SMA::Sequential_execution sequential;
+  const auto expect_logarithmic = [](std::size_t n, std::size_t rounds, std::size_t rounds_before) {
+    EXPECT_LE(double(rounds), std::log2(double(n)));
+    EXPECT_LE(rounds, rounds_before + 4);
+  };
+  const auto rounds_of_set = [&](const Graph& g) { return maximal_set(sequential, g, hashed_priority).rounds; };
+  for (const auto& [small, large] : grown) {
+    SCOPED_TRACE(large.name);
+    expect_logarithmic(large.size(), rounds_of_set(large), rounds_of_set(small));
+    const Edges few = small.edges(), many = large.edges();
+    expect_logarithmic(many.size(), maximal_matching(sequential, large, many, hashed_priority).rounds,
+                       maximal_matching(sequential, small, few, hashed_priority).rounds);
   }
 }
 

@@ -6,9 +6,9 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_PROFILED_EXECUTION_H
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <ctime>
 #include <memory>
 #include <vector>
 
@@ -19,11 +19,12 @@ namespace Surface_mesh_adaptation {
 struct Parallel_step
 {
   std::size_t tasks = 0;
-  double work = 0;     ///< seconds of all tasks together
+  double work = 0;     ///< processor seconds of all tasks together
   double longest = 0;  ///< seconds of the longest task
 };
 
-/// Runs tasks one after the other and records how long they take.
+/// Runs tasks one after the other and records how long they take, by `std::clock()`: in the time of the processor, which
+/// does not count what other programs take meanwhile. \pre no other thread of this program runs
 /// \cgalModels `AdaptationExecution`
 class Profiled_execution
 {
@@ -37,11 +38,11 @@ public:
   {
     Parallel_step step;
     step.tasks = number_of_tasks;
-    auto last = Clock::now();
+    std::clock_t last = std::clock();
     for (std::size_t i = 0; i < number_of_tasks; ++i) {
       task(i);
-      const auto now = Clock::now();
-      const double seconds = std::chrono::duration<double>(now - last).count();
+      const std::clock_t now = std::clock();
+      const double seconds = double(now - last) / CLOCKS_PER_SEC;
       step.work += seconds;
       step.longest = (std::max)(step.longest, seconds);
       last = now;
@@ -53,8 +54,6 @@ public:
   const std::vector<Parallel_step>& steps() const { return *steps_; }
 
 private:
-  using Clock = std::chrono::steady_clock;
-
   std::shared_ptr<std::vector<Parallel_step>> steps_ = std::make_shared<std::vector<Parallel_step>>();
 };
 

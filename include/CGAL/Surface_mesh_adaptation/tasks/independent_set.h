@@ -92,17 +92,26 @@ std::vector<std::uint32_t> independent_set(const Execution& execution, std::size
   return winners;
 }
 
-/// Passes until every candidate has won or touches a winner: a maximal independent set, in increasing order.
-template <class Execution, class Priority, class Resources>
-std::vector<std::uint32_t> maximal_independent_set(const Execution& execution, std::size_t n,
-                                                   std::size_t number_of_resources, const Priority& priority,
-                                                   const Resources& resources)
+struct Maximal_independent_set
 {
+  std::vector<std::uint32_t> members; ///< in increasing order
+  std::size_t rounds = 0;             ///< passes that it took
+};
+
+/// Passes until every candidate has won or touches a winner: a maximal independent set. With hashed priorities the
+/// number of rounds is O(log n) with high probability (Fischer and Noever 2018).
+template <class Execution, class Priority, class Resources>
+Maximal_independent_set maximal_independent_set(const Execution& execution, std::size_t n,
+                                                std::size_t number_of_resources, const Priority& priority,
+                                                const Resources& resources)
+{
+  Maximal_independent_set result;
   Reservations reservations;
   reservations.resize(execution, number_of_resources);
   std::vector<std::uint8_t> is_taken(number_of_resources, 0), is_member(n, 0);
   std::vector<std::uint32_t> candidates = pack(execution, n, [](std::size_t) { return true; });
   while (!candidates.empty()) {
+    ++result.rounds;
     const auto winners = independent_set(
       execution, candidates.size(), reservations, [&](std::size_t i) { return priority(candidates[i]); },
       [&](std::size_t i, const auto& f) { resources(candidates[i], f); });
@@ -120,7 +129,8 @@ std::vector<std::uint32_t> maximal_independent_set(const Execution& execution, s
     for_each_index(execution, free.size(), [&](std::size_t i) { next[i] = candidates[free[i]]; });
     candidates.swap(next);
   }
-  return pack(execution, n, [&](std::size_t i) { return is_member[i] != 0; });
+  result.members = pack(execution, n, [&](std::size_t i) { return is_member[i] != 0; });
+  return result;
 }
 
 } // namespace Surface_mesh_adaptation

@@ -12,11 +12,11 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// A maximal matching among `n` edges, as their indices in increasing order. `ends(i)` is the pair of nodes of edge
+/// A maximal matching among `n` edges: its members are their indices. `ends(i)` is the pair of nodes of edge
 /// `i`, below `number_of_nodes`; `priority(i)` is unique, and less goes first.
 template <class Execution, class Priority, class Ends>
-std::vector<std::uint32_t> maximal_matching(const Execution& execution, std::size_t n, std::size_t number_of_nodes,
-                                            const Priority& priority, const Ends& ends)
+Maximal_independent_set maximal_matching(const Execution& execution, std::size_t n, std::size_t number_of_nodes,
+                                         const Priority& priority, const Ends& ends)
 {
   return maximal_independent_set(execution, n, number_of_nodes, priority, [&](std::size_t i, const auto& f) {
     const auto e = ends(i);
