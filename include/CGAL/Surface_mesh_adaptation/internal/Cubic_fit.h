@@ -54,13 +54,15 @@ private:
 
   /// The least square of the sine of the angle between a column of the problem and the span of those before it.
   static constexpr double least_pivot = 1e-5;
+  /// The least length of a column over the longest: where all samples lie on two lines, the mixed one is but rounding.
+  static constexpr double least_column = 1e-6;
 
   template <int n>
   bool solve(Derivatives_2& result) const
   {
     using Vector = Eigen::Matrix<double, n, 1>;
     const Vector scale = matrix_.template topLeftCorner<n, n>().diagonal().cwiseSqrt();
-    if (!(scale.minCoeff() > 0)) return false;
+    if (!(scale.minCoeff() > least_column * scale.maxCoeff())) return false;
     const Vector inverse = scale.cwiseInverse();
     Eigen::Matrix<double, n, n> a =
       inverse.asDiagonal() * matrix_.template topLeftCorner<n, n>() * inverse.asDiagonal();
