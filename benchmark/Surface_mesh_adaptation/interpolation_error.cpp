@@ -46,7 +46,7 @@ std::vector<Surface> surfaces()
   const double large = shapes::torus_large_radius, small = shapes::torus_small_radius;
   return {{"square", 1, shapes::square(50, 0.3), [](const Vector_3& p) { return p; }},
           {"sphere", 4 * shapes::pi, shapes::sphere(4, 0.3), [](const Vector_3& p) { return Vector_3(p.normalized()); }},
-          {"torus", 4 * shapes::pi * shapes::pi * large * small, shapes::torus(84, 30, 0.3), [=](const Vector_3& p) {
+          {"torus", 4 * shapes::pi * shapes::pi * large * small, shapes::torus(84, 30, 0.2), [=](const Vector_3& p) {
              const Vector_3 center = large * Vector_3(p[0], p[1], 0).normalized();
              return Vector_3(center + small * (p - center).normalized());
            }}};
