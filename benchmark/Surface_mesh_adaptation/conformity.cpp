@@ -90,7 +90,8 @@ std::vector<Domain> domains()
   };
   return {{"square", shapes::square(30, 0.3), [](const Vector_3&) { return Vector_3(0, 0, 1); }},
           {"cube", in_unit_cube(shapes::cube(20)), normal_of_cube},
-          {"ball", in_unit_cube(shapes::sphere(4, 0.3)), [](const Vector_3& p) { return Vector_3(p - Vector_3::Constant(0.5)); }}};
+          {"ball", in_unit_cube(shapes::sphere(4, 0.3)),
+           [](const Vector_3& p) { return Vector_3(p - Vector_3::Constant(0.5)); }}};
 }
 
 /// Faces that do not point outwards; on the square this is exact, and none means that the mesh is a triangulation.
@@ -99,7 +100,8 @@ std::size_t inverted_faces(const Domain& domain, const Mesh& mesh)
   std::size_t inverted = 0;
   for (const auto f : mesh.faces()) {
     const auto h = mesh.halfedge(f);
-    const auto &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)), &c = mesh.point(mesh.target(mesh.next(h)));
+    const auto &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)),
+               &c = mesh.point(mesh.target(mesh.next(h)));
     const Vector_3 n = domain.normal(Vector_3(a.x() + b.x() + c.x(), a.y() + b.y() + c.y(), a.z() + b.z() + c.z()) / 3);
     const Kernel::Point_3 above = a + Kernel::Vector_3(n[0], n[1], n[2]);
     if (CGAL::orientation(a, b, c, above) != CGAL::POSITIVE) ++inverted;
@@ -113,8 +115,8 @@ void print_row(const Domain& domain, const std::string& name, double h0, double 
   Mesh mesh = shapes::mesh<Mesh>(domain.mesh);
   const SMA::Analytic_metric_field metric([&](const Vector_3& p) { return (finer * finer) * field(h0, p); });
   const SMA::Mesh_statistics s = SMA::adapt_surface_mesh(mesh, metric).final;
-  std::printf("| %s, %s | %.0f | %.0f | %zu | %.1f %% | %.3f | %.3f | %zu | %.2g |\n", domain.name.c_str(), name.c_str(),
-              largest_size / h0, finer, s.vertices, 100 * s.in_range, s.mean_quality, s.min_quality,
+  std::printf("| %s, %s | %.0f | %.0f | %zu | %.1f %% | %.3f | %.3f | %zu | %.2g |\n", domain.name.c_str(),
+              name.c_str(), largest_size / h0, finer, s.vertices, 100 * s.in_range, s.mean_quality, s.min_quality,
               inverted_faces(domain, mesh), s.min_angle);
   std::fflush(stdout);
 }
