@@ -88,6 +88,14 @@ inline double front(const Vector_3& p)
   return std::tanh(50 * (p[0] - 0.5 + 0.1 * std::sin(2 * shapes::pi * p[1])));
 }
 
+/// Two steep fronts, one of them faint, and weak waves between.
+inline double several_scales(const Vector_3& p)
+{
+  return std::tanh(20 * (p[0] - 0.5 + 0.1 * std::sin(2 * shapes::pi * p[1]))) +
+         0.1 * std::tanh(100 * (p[1] - 0.3 - 0.1 * std::sin(2 * shapes::pi * p[0]))) +
+         0.02 * std::sin(8 * shapes::pi * (p[0] * p[1] + p[2]));
+}
+
 inline std::vector<double> samples(const Function& f, const std::vector<Vector_3>& points)
 {
   std::vector<double> values;

@@ -3,6 +3,7 @@
 // Where metrics come from: curvature, fields, intersection, gradation, a number of vertices.
 
 #include "analytic_fields.h"
+#include "interpolation_error.h"
 #include "policies.h"
 
 #include <CGAL/Simple_cartesian.h>
@@ -741,23 +742,10 @@ TEST(Metric_fields, give_the_same_bits_with_every_policy)
   });
 }
 
-/// Mean error of the linear interpolation of the front on the faces of a mesh of the unit square, by 10 samples each.
+/// Mean error of the linear interpolation of the front on a mesh of the unit square.
 double interpolation_error(const Mesh& mesh)
 {
-  const Soup s = shapes::soup(mesh);
-  double error = 0;
-  for (const shapes::Triangle& t : s.triangles) {
-    const Vector_3 &a = s.points[t[0]], &b = s.points[t[1]], &c = s.points[t[2]];
-    const double ua = analytic::front(a), ub = analytic::front(b), uc = analytic::front(c);
-    double sum = 0;
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; i + j < 4; ++j) {
-        const double x = (i + 1 / 3.0) / 4, y = (j + 1 / 3.0) / 4, z = 1 - x - y;
-        sum += std::abs(x * ua + y * ub + z * uc - analytic::front(x * a + y * b + z * c)) / 10;
-      }
-    error += sum * (b - a).cross(c - a).norm() / 2;
-  }
-  return error;
+  return analytic::interpolation_error(shapes::soup(mesh), analytic::front).l1;
 }
 
 TEST(Solution_metric_field, spends_the_vertices_where_the_field_bends)
