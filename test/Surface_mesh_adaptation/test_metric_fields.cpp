@@ -185,6 +185,21 @@ TEST(Hessian, keeps_its_order_at_the_boundary)
   EXPECT_LT(fine, 0.02);
 }
 
+TEST(Hessian, is_not_made_of_rounding_where_all_samples_lie_on_two_lines)
+{
+  SMA::internal::Cubic_fit fit;
+  double rounding = 1e-15;
+  for (const double x : {0.5, 1.0, 1.5}) {
+    rounding = -rounding;
+    fit.add(x, rounding, std::sin(x), 1);
+    fit.add(rounding, x, std::sin(3 * x), 1);
+  }
+  SMA::internal::Derivatives_2 f;
+  EXPECT_FALSE(fit.solve_quadratic(f));
+  fit.add(1, 1, 0.3, 1);
+  EXPECT_TRUE(fit.solve_quadratic(f));
+}
+
 TEST(Hessian, of_a_quadratic_field_is_exact_on_each_side_of_a_ridge)
 {
   const Soup soup = shapes::cube(5);
