@@ -155,6 +155,8 @@ template <class T> constexpr bool is_execution<T, std::void_t<decltype(std::decl
 /// Length of a chunk of light work (tens of nanoseconds an index): long enough to hide the cost of a task, short enough
 /// to occupy many threads.
 constexpr std::size_t default_chunk_length = 512;
+/// The same for the claims of tasks and what else is done for each of these (tenths of a microsecond an index).
+constexpr std::size_t claim_chunk_length = 64;
 /// The same for heavy work (a microsecond an index).
 constexpr std::size_t heavy_chunk_length = 16;
 /// The same for writing or copying (less than a nanosecond an index).
@@ -268,9 +270,10 @@ std::vector<T> gather(const Execution& execution, std::size_t n, std::size_t chu
 
 /// The `i` in `[0, n)` with `predicate(i)`, in increasing order.
 template <class Execution, class Predicate>
-std::vector<std::uint32_t> pack(const Execution& execution, std::size_t n, const Predicate& predicate)
+std::vector<std::uint32_t> pack(const Execution& execution, std::size_t n, const Predicate& predicate,
+                                std::size_t chunk_length = default_chunk_length)
 {
-  return gather<std::uint32_t>(execution, n, default_chunk_length,
+  return gather<std::uint32_t>(execution, n, chunk_length,
                                [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& list) {
     for (std::size_t i = begin; i < end; ++i)
       if (predicate(i)) list.push_back(std::uint32_t(i));

@@ -126,7 +126,8 @@ private:
         claim(vertices[valid[i]]);
         mesh_.for_each_neighbor(vertices[valid[i]], claim);
       });
-    for_each_index(execution_, winners.size(), [&](std::size_t i) { apply(proposals_[valid[winners[i]]]); });
+    for_each_index(execution_, winners.size(), [&](std::size_t i) { apply(proposals_[valid[winners[i]]]); },
+                   heavy_chunk_length);
     counts.applied += winners.size();
 
     vertices = gather<Index>(execution_, valid.size(), default_chunk_length,

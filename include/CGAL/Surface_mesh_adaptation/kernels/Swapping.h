@@ -141,7 +141,7 @@ private:
   /// One pass of claims over the deferred edges of `vertices`, which keeps those that still have some.
   void sweep_border(std::vector<Index>& vertices, std::uint32_t round, Sweep_counts& counts)
   {
-    const std::vector<Index> edges = gather<Index>(execution_, vertices.size(), default_chunk_length,
+    const std::vector<Index> edges = gather<Index>(execution_, vertices.size(), claim_chunk_length,
                                                    [&](std::size_t begin, std::size_t end, std::vector<Index>& list) {
       for (std::size_t i = begin; i < end; ++i)
         mesh_.for_each_outgoing(vertices[i], [&](Index h) {
@@ -172,7 +172,8 @@ private:
           if (i == 0 || v != mesh_.source(edges[valid[i - 1]])) remaining.push_back(v);
         }
       });
-    for_each_index(execution_, winners.size(), [&](std::size_t i) { apply(edges[valid[winners[i]]]); });
+    for_each_index(execution_, winners.size(), [&](std::size_t i) { apply(edges[valid[winners[i]]]); },
+                   heavy_chunk_length);
     counts.applied += winners.size();
   }
 

@@ -80,15 +80,15 @@ std::vector<std::uint32_t> independent_set(const Execution& execution, std::size
 {
   for_each_index(execution, n, [&](std::size_t i) {
     resources(i, [&](std::size_t r) { reservations.reserve(r, priority(i)); });
-  });
+  }, claim_chunk_length);
   std::vector<std::uint32_t> winners = pack(execution, n, [&](std::size_t i) {
     bool wins = true;
     resources(i, [&](std::size_t r) { wins = wins && reservations.holds(r, priority(i)); });
     return wins;
-  });
+  }, claim_chunk_length);
   for_each_index(execution, n, [&](std::size_t i) {
     resources(i, [&](std::size_t r) { reservations.release(r); });
-  });
+  }, claim_chunk_length);
   return winners;
 }
 
