@@ -29,7 +29,8 @@ class Adaptation_driver
 public:
   Adaptation_driver(const Execution& execution, Surface& surface, Visitor& visitor)
     : execution_(execution), surface_(surface), visitor_(visitor)
-    , refinement_(execution, surface), simplification_(execution, surface, {}), swapping_(execution, surface, {})
+    , refinement_(execution, surface, spaced<Refinement_thresholds>())
+    , simplification_(execution, surface, spaced<Simplification_thresholds>()), swapping_(execution, surface, {})
     , relocation_(execution, surface, {})
   {}
 
@@ -56,8 +57,17 @@ public:
   }
 
 private:
-  /// Every vertex may have to move, but collapses and swaps need a short edge or a bad face: on a mesh that is adapted
-  /// already there are few.
+  /// The default thresholds, with curves spaced by the mean length of their edges: moves will equalise these.
+  template <class Thresholds>
+  static Thresholds spaced()
+  {
+    Thresholds thresholds;
+    thresholds.space_curves = true;
+    return thresholds;
+  }
+
+  /// Every vertex may have to move, but collapses and swaps need a short edge, a bad face or a curve: on a mesh that is
+  /// adapted already there are few.
   void find_work()
   {
     const Mesh_view& mesh = surface_.mesh;
@@ -68,7 +78,9 @@ private:
       std::uint8_t kernels = 0;
       if (!surface_.has_quality(v[0], v[1], v[2], max_improvable_quality)) kernels |= std::uint8_t(Activity::swap);
       for (std::size_t i = 0; i < 3; ++i)
-        if (surface_.is_shorter(v[i], v[(i + 1) % 3], min_unit_length)) kernels |= std::uint8_t(Activity::simplify);
+        if (surface_.vertex_class(v[i]) == Vertex_class::curve ||
+            surface_.is_shorter(v[i], v[(i + 1) % 3], min_unit_length))
+          kernels |= std::uint8_t(Activity::simplify);
       if (kernels != 0)
         for (const Index corner : v) activate(surface_, corner, kernels);
     });
@@ -96,7 +108,7 @@ private:
   {
     std::size_t split = 0;
     const auto refine = [&](Sweep_counts& c) {
-      return refinement_.sweep(max_unit_length, negligible(split == 0 ? first_refine_share : refine_share), c);
+      return refinement_.sweep(negligible(split == 0 ? first_refine_share : refine_share), c);
     };
     const auto simplify = [&](Sweep_counts& c) { return simplification_.sweep(c); };
     const auto swap = [&](Sweep_counts& c) { return swapping_.sweep(c); };
@@ -174,7 +186,7 @@ private:
   static constexpr double budget_precision = 0.02;
   static constexpr std::size_t rounds_of_correction = 3;
   static constexpr double adapted_share = 0.95;          // of the edges in range
-  static constexpr double least_gain = 0.001;            // in the share of edges in range or in mean quality
+  static constexpr double least_gain = 0.0015;           // in the share of edges in range or in mean quality
 
   const Execution& execution_;
   Surface& surface_;

@@ -26,7 +26,7 @@ auto refine(const Execution& execution, TriangleMesh& mesh, const MetricField& f
 {
   return internal::run_kernel(execution, mesh, field, np, 24, [](const auto& policy, auto& surface) {
     return Refinement(policy, surface);
-  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(max_unit_length, 0, counts); });
+  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(0, counts); });
 }
 
 /// The same with the policy as a template parameter, as for `adapt_surface_mesh`.

@@ -19,6 +19,7 @@
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/fill_holes.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
 #include <CGAL/Surface_mesh_adaptation/restructure.h>
 
 #include <algorithm>
@@ -32,14 +33,20 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+struct Refinement_thresholds
+{
+  double max_length = max_unit_length;  ///< edges of this length or more are split
+  bool space_curves = false;            ///< decide on curves by the mean length of neighbouring edges
+};
+
 template <class Surface, class Execution>
 class Refinement
 {
 public:
   using Metric = typename Surface::Metric;
 
-  Refinement(const Execution& execution, Surface& surface)
-    : execution_(execution), surface_(surface), mesh_(surface.mesh), expected_vertices_(expected_number_of_vertices())
+  Refinement(const Execution& execution, Surface& surface, const Refinement_thresholds& thresholds = {})
+    : execution_(execution), surface_(surface), mesh_(surface.mesh), thresholds_(thresholds)
   {}
 
   Refinement(const Refinement&) = delete;
@@ -51,17 +58,17 @@ public:
             spare_.curve, spare_.outgoing);
   }
 
-  /// Splits every edge of length `max_length` or more, once, if there are more than `negligible`. Returns the number of edges
-  /// split.
-  std::size_t sweep(double max_length, std::size_t negligible, Sweep_counts& counts)
+  /// Splits every edge that is too long, once, if there are more than `negligible`. Returns the number of edges split.
+  std::size_t sweep(std::size_t negligible, Sweep_counts& counts)
   {
     counts.candidates += mesh_.number_of_halfedges() / 2;
-    mark(max_length);
+    mark();
     for (;;) {
       const std::size_t marked = count_marked();
       if (marked <= negligible) return 0;
       const Restructuring plan(execution_, mesh_, codes_);
       if (plan.number_of_faces() > max_number_of_faces) throw Mesh_too_large_error();
+      if (expected_vertices_ == 0) expected_vertices_ = expected_number_of_vertices();
       place_vertices(plan);
       if (take_back_marks_of_bad_faces(plan)) continue;
       choose_diagonals(plan);
@@ -125,13 +132,19 @@ private:
     }, chunk_length);
   }
 
-  void mark(double max_length)
+  void mark()
   {
     fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
     for_each_face([&](Index f) {
       for (Index i = 0; i < 3; ++i)
-        if (!surface_.is_shorter(mesh_.source(3 * f + i), mesh_.target(3 * f + i), max_length)) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
+        if (is_too_long(3 * f + i)) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
     });
+  }
+
+  bool is_too_long(Index h) const
+  {
+    if (thresholds_.space_curves && mesh_.is_feature(h)) return is_split_on_curve(surface_, h);
+    return !surface_.is_shorter(mesh_.source(h), mesh_.target(h), thresholds_.max_length);
   }
 
   std::size_t count_marked() const
@@ -284,7 +297,8 @@ private:
   const Execution& execution_;
   Surface& surface_;
   Mesh_view& mesh_;
-  std::size_t expected_vertices_;
+  Refinement_thresholds thresholds_;
+  std::size_t expected_vertices_ = 0; // for all sweeps
   Buffer<std::uint8_t> codes_, chosen_, bad_;
   // the other half of a double buffer: swapped with the surface by `commit`
   Mesh_view spare_;

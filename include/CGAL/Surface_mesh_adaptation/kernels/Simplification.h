@@ -16,6 +16,7 @@
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>
@@ -30,6 +31,7 @@ struct Simplification_thresholds
   double min_length = min_unit_length;  ///< edges below are collapsed
   double max_length = max_unit_length;  ///< no collapse creates an edge above, unless it removes a longer one
   double min_quality = 0.2;             ///< nor a face below, unless there was a worse one
+  bool space_curves = false;            ///< decide on curves by the mean length of neighbouring edges
 };
 
 template <class Surface, class Execution>
@@ -50,7 +52,7 @@ public:
         if (mesh_.is_removed_vertex(v) || !is_active(surface_, v, Activity::simplify)) return;
         if (!block.contains_ring(mesh_, v)) return list.push_back(v);
         ++c.candidates;
-        c.applied += examine(v);
+        c.applied += examine(v, [&](Index w) { return block.contains(w) && block.contains_ring(mesh_, w); });
       });
     for (std::uint32_t round = 0; !deferred.empty() && round < max_border_rounds; ++round)
       sweep_border(deferred, round, local);
@@ -59,15 +61,18 @@ public:
     return local.applied;
   }
 
-  /// The best valid collapse that removes `s`; `h == no_index` if there is none.
-  CGAL_SMA_FLATTEN Mesh_view::Directed_edge propose(Index s) const
+  /// The best valid collapse that removes `s`; `h == no_index` if there is none. Looks at the ring of `s`, and at those of
+  /// vertices further along its curve that `may_see` allows.
+  template <class MaySee>
+  CGAL_SMA_FLATTEN Mesh_view::Directed_edge propose(Index s, const MaySee& may_see) const
   {
     if (surface_.vertex_class(s) == Vertex_class::corner) return {};
     Ring<std::pair<double, Mesh_view::Directed_edge>> short_edges;
+    const double limit = max_length_to_collapse(s, may_see);
     const auto consider = [&](const Mesh_view::Directed_edge& e) {
       if (!may_slide_along(s, e.h)) return;
       const double length = surface_.length(e.h);
-      if (length < thresholds_.min_length) short_edges.emplace_back(length, e);
+      if (length < limit) short_edges.emplace_back(length, e);
     };
     Index last = no_index;
     mesh_.for_each_outgoing(s, [&](Index h) {
@@ -92,9 +97,10 @@ public:
 private:
   static constexpr std::uint32_t max_border_rounds = 8; // what is left then is examined by the next sweep
 
-  bool examine(Index v)
+  template <class MaySee>
+  bool examine(Index v, const MaySee& may_see)
   {
-    const Mesh_view::Directed_edge e = propose(v);
+    const Mesh_view::Directed_edge e = propose(v, may_see);
     if (e.h == no_index) {
       deactivate(surface_, v, Activity::simplify);
       return false;
@@ -108,7 +114,8 @@ private:
     counts.candidates += vertices.size();
     proposals_.resize(vertices.size());
     for_each_index(execution_, vertices.size(), [&](std::size_t i) {
-      proposals_[i] = mesh_.is_removed_vertex(vertices[i]) ? Mesh_view::Directed_edge() : propose(vertices[i]);
+      proposals_[i] = mesh_.is_removed_vertex(vertices[i]) ? Mesh_view::Directed_edge()
+                                                           : propose(vertices[i], [](Index) { return true; });
     }, heavy_chunk_length);
     const auto valid = pack(execution_, vertices.size(), [&](std::size_t i) { return proposals_[i].h != no_index; });
     for_each_index(execution_, vertices.size(), [&](std::size_t i) {
@@ -137,6 +144,14 @@ private:
     });
   }
 
+  /// The edges along which `s` may vanish are shorter.
+  template <class MaySee>
+  double max_length_to_collapse(Index s, const MaySee& may_see) const
+  {
+    if (!thresholds_.space_curves || surface_.vertex_class(s) != Vertex_class::curve) return thresholds_.min_length;
+    return is_collapsed_on_curve(surface_, s, may_see) ? max_curve_length : min_curve_length;
+  }
+
   bool may_slide_along(Index s, Index h) const
   {
     return surface_.vertex_class(s) == Vertex_class::smooth || mesh_.curve[h] == surface_.locations[s].cell;
@@ -158,14 +173,16 @@ private:
     });
     const double quality_limit = (std::min)(thresholds_.min_quality, old_quality);
     const double alignment_limit = (std::min)(min_alignment, old_alignment);
+    const Index on_curve = thresholds_.space_curves ? next_on_curve(surface_, s, d) : no_index;
+    const auto limit_to = [&](Index x) { return x == on_curve ? max_curve_length : length_limit; };
     mesh_.for_each_outgoing_while(s, [&](Index h) {
       const Index x = mesh_.target(h), y = mesh_.apex(h);
       if (x == d || y == d) return true;
       const double new_quality = surface_.quality(d, x, y);
       const Vector_3 n = surface_.normal(d, x, y);
       is_flat = is_flat && surface_.is_flat(n, d, x, y);
-      is_valid = new_quality > quality_limit && new_quality > 0 && surface_.length(d, x) <= length_limit &&
-                 surface_.length(d, y) <= length_limit &&
+      is_valid = new_quality > quality_limit && new_quality > 0 && surface_.length(d, x) <= limit_to(x) &&
+                 surface_.length(d, y) <= limit_to(y) &&
                  surface_.alignment(n, d, x, y) >= alignment_limit && n.dot(surface_.normal(s, x, y)) >= min_turn &&
                  (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit);
       return is_valid;

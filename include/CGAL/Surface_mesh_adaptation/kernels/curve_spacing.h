@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How many vertices a feature curve is to have. An edge on a curve cannot be swapped, and vertices leave the curve in one
+// direction only, so edges that are split and collapsed one by one stay where halving left them: anywhere between
+// 1/sqrt 2 and sqrt 2, while the faces beside them want unit edges. What counts here is the mean length over a few
+// neighbouring edges; moves along the curve equalise these.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_SPACING_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_SPACING_H
+
+#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// Metric lengths of an edge of a curve below and above which it is collapsed or split, whatever its neighbours are like.
+constexpr double min_curve_length = 0.5;
+constexpr double max_curve_length = 2.0;
+
+/// Edges on each side of the one in question that decide with it: the mean length comes within 8 % of 1.
+constexpr int curve_reach = 3;
+
+/// Consecutive edges of a feature curve, with their lengths in the metric. Corners end it.
+struct Curve_window
+{
+  double length = 0;
+  double longest = 0;
+  int edges = 0;
+
+  void add(double l)
+  {
+    length += l;
+    longest = (std::max)(longest, l);
+    ++edges;
+  }
+
+  // Of n and n + 1 edges those whose mean length is nearer to 1 as a ratio: what has been split is not collapsed again.
+  bool has_too_few_edges() const { return length * length > edges * (edges + 1); }
+  bool has_too_many_edges() const { return length * length < edges * (edges - 1); }
+};
+
+/// The neighbour of the curve vertex `v` along its curve that is not `from`; `no_index` if there is none or `v` is a
+/// corner.
+template <class Surface>
+Index next_on_curve(const Surface& surface, Index v, Index from)
+{
+  if (surface.vertex_class(v) != Vertex_class::curve) return no_index;
+  const Mesh_view& mesh = surface.mesh;
+  const Index curve = surface.locations[v].cell;
+  Index next = no_index, last = no_index;
+  mesh.for_each_outgoing(v, [&](Index h) {
+    if (mesh.curve[h] == curve && mesh.target(h) != from) next = mesh.target(h);
+    last = Mesh_view::previous(h);
+  });
+  if (mesh.is_border(last) && mesh.curve[last] == curve && mesh.source(last) != from) next = mesh.source(last);
+  return next;
+}
+
+/// Adds up to `n` edges that follow the one from `a` to `b`, but none that starts at `end` or at a vertex that
+/// `may_pass` forbids. (On a closed curve of a few edges, some are found from both sides.)
+template <class Surface, class MayPass>
+void add_edges_behind(const Surface& surface, Index a, Index b, Index end, int n, const MayPass& may_pass,
+                      Curve_window& window)
+{
+  for (; n > 0 && b != end && may_pass(b); --n) {
+    const Index c = next_on_curve(surface, b, a);
+    if (c == no_index) return;
+    window.add(surface.length(b, c));
+    a = b;
+    b = c;
+  }
+}
+
+/// Whether the curve edge of `h` is to be split: the longest of too few.
+template <class Surface>
+bool is_split_on_curve(const Surface& surface, Index h)
+{
+  // the order of the sum must be the same from both sides
+  const Index a = (std::min)(surface.mesh.source(h), surface.mesh.target(h));
+  const Index b = (std::max)(surface.mesh.source(h), surface.mesh.target(h));
+  const double length = surface.length(a, b);
+  if (length < 1) return false;
+  if (length >= max_curve_length) return true;
+  Curve_window window;
+  window.add(length);
+  const auto always = [](Index) { return true; };
+  add_edges_behind(surface, b, a, b, curve_reach, always, window);
+  add_edges_behind(surface, a, b, a, curve_reach, always, window);
+  return window.has_too_few_edges() && length == window.longest;
+}
+
+/// Whether the curve vertex `v` is one of too many, as far as can be seen without the rings of other vertices than those
+/// that `may_pass` allows.
+template <class Surface, class MayPass>
+bool is_collapsed_on_curve(const Surface& surface, Index v, const MayPass& may_pass)
+{
+  const Index a = next_on_curve(surface, v, no_index);
+  const Index b = a == no_index ? no_index : next_on_curve(surface, v, a);
+  if (b == no_index) return false;
+  Curve_window window;
+  add_edges_behind(surface, b, v, b, 1 + curve_reach, may_pass, window);
+  add_edges_behind(surface, a, v, a, 1 + curve_reach, may_pass, window);
+  return window.has_too_many_edges();
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_SPACING_H
