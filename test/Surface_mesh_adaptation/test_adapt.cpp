@@ -83,8 +83,10 @@ TEST_P(Real_mesh, is_adapted_and_stays_the_same_surface)
   EXPECT_EQ(report.final.faces, num_faces(mesh));
   EXPECT_FALSE(report.stopped);
   if (GetParam().size != 0.5) return; // coarser metrics conflict with the features of some of these meshes
-  EXPECT_GE(report.final.in_range, 0.95);
-  EXPECT_GE(report.final.mean_quality, 0.95);
+  // couplingdown has chamfers that are narrower than the edges are to be
+  const bool is_narrow = std::string(GetParam().mesh) == "couplingdown";
+  EXPECT_GE(report.final.in_range, is_narrow ? 0.975 : 0.99);
+  EXPECT_GE(report.final.mean_quality, is_narrow ? 0.955 : 0.97);
 }
 
 std::vector<Case> cases()
@@ -97,6 +99,24 @@ std::vector<Case> cases()
 }
 
 INSTANTIATE_TEST_SUITE_P(Adapt, Real_mesh, ::testing::ValuesIn(cases()), name_of_case);
+
+// Two right-angled faces: halving makes a lattice of such faces (quality .866), and curves of 2^n edges.
+TEST(Adapt, fills_a_square_with_unit_triangles)
+{
+  for (const double size : {0.05, 0.0231, 0.02, 0.017}) {
+    Mesh mesh;
+    const auto a = mesh.add_vertex({0, 0, 0}), b = mesh.add_vertex({1, 0, 0}), c = mesh.add_vertex({1, 1, 0}),
+               d = mesh.add_vertex({0, 1, 0});
+    mesh.add_face(a, b, c);
+    mesh.add_face(a, c, d);
+    const SMA::Adaptation_report report = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size));
+    EXPECT_GE(report.final.in_range, 0.99);
+    EXPECT_GE(report.final.mean_quality, 0.96);
+    std::size_t boundary_edges = 0;
+    for (const auto e : edges(mesh)) boundary_edges += mesh.is_border(e);
+    EXPECT_NEAR(4 / (double(boundary_edges) * size), 1, 0.09) << "mean length of the edges on the boundary";
+  }
+}
 
 using Edges = std::vector<std::pair<Index, Index>>;
 

@@ -129,6 +129,22 @@ inline double face_mass(const Anisotropic_metric& a, const Anisotropic_metric& b
   return std::copysign(std::sqrt((std::max)(0.0, squared)), projected_area);
 }
 
+/// The side `e` of a triangle, mapped such that `sqrt(3) / 2` times the cross product of the unit normal with it is
+/// `face_mass` times the vector from the middle of `e` to the third corner of the triangle on its left that is
+/// equilateral in the mean metric of the corners. (In the plane, a quarter turn `J` in the metric `M` is
+/// `J M / sqrt(det M)`.)
+inline Vector_3 weighted_side(const Isotropic_metric& a, const Isotropic_metric& b, const Isotropic_metric& c,
+                              const Vector_3& e, double projected_area)
+{
+  return projected_area * (a.density() + b.density() + c.density()) * e;
+}
+
+inline Vector_3 weighted_side(const Anisotropic_metric& a, const Anisotropic_metric& b, const Anisotropic_metric& c,
+                              const Vector_3& e, double projected_area)
+{
+  return projected_area * ((a.m + b.m + c.m) * e);
+}
+
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -2,9 +2,9 @@
 //
 // Relocation: moves vertices on the surface to improve the faces around them (paper, section 3).
 //
-// Diffusion towards the centre of mass of the surrounding faces, weighted by the density of the metric (equation 1),
-// over-relaxed, with a step that is halved until no face is made worse than allowed. Curve vertices move along
-// their curve to balance the metric lengths on both sides; corners stay.
+// Diffusion towards the centre of mass of the surrounding faces, weighted by the density of the metric (equation 1), and
+// towards where these would be equilateral; over-relaxed, with a step that is halved until no face is made worse than
+// allowed. Curve vertices move along their curve to balance the metric lengths on both sides; corners stay.
 //
 // Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Where a face is
 // not flat, the test for folds also looks at the vertices behind the ring: if these may be moving, the vertex is put off
@@ -146,6 +146,7 @@ private:
   {
     constexpr std::uint8_t relocate = std::uint8_t(Activity::relocate);
     std::uint8_t of_all = relocate;
+    if (moved.location.kind == Vertex_class::curve) of_all |= std::uint8_t(Activity::simplify);
     star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
       const Vector_3 ea = a.point - moved.point, eb = b.point - moved.point;
       std::uint8_t kernels = relocate;
@@ -237,20 +238,27 @@ private:
                                     (std::min)(min_fold, surface_.sharpest_fold(v, surface_.points[v]));
   }
 
-  /// Displacement to the centre of mass of the faces around `v`, in its tangent plane.
+  /// Displacement in the tangent plane to the mean of two points of each face around `v`, weighted by the masses of the
+  /// faces: the centre of mass, which makes the mesh as dense as the metric asks for, and the place of `v` at which the
+  /// face would be equilateral in the metric.
   CGAL_SMA_FLATTEN Vector_3 displacement_to_center(Index v, const Star& star) const
   {
     const Vector_3 &p = surface_.points[v], &normal = surface_.normals[v];
-    Vector_3 sum = Vector_3::Zero();
+    const Metric& metric = surface_.metrics[v];
+    Vector_3 sum = Vector_3::Zero(), sides = Vector_3::Zero();
     double mass = 0;
     star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
       const Vector_3 ea = a.point - p, eb = b.point - p;
-      const double m = face_mass(surface_.metrics[v], a.metric, b.metric, ea, eb, ea.cross(eb).dot(normal));
+      const double area = ea.cross(eb).dot(normal);
+      const double m = face_mass(metric, a.metric, b.metric, ea, eb, area);
       sum += m * (ea + eb);
+      sides += weighted_side(metric, a.metric, b.metric, eb - ea, area);
       mass += m;
     });
     if (!(mass > 0)) return Vector_3::Zero();
-    sum /= 3 * mass;
+    const double height = std::sqrt(3.0) / 2; // of an equilateral triangle
+    sum = ((1 - share_of_shape) / 3 + share_of_shape / 2) * sum + share_of_shape * height * normal.cross(sides);
+    sum /= mass;
     return sum - sum.dot(normal) * normal;
   }
 
@@ -304,6 +312,7 @@ private:
   // Alternating the two kills errors over many faces several times faster, and with the plain step in between also
   // those from face to face, which over-relaxation alone keeps alive.
   static constexpr double over_relaxation = 2.2, plain_relaxation = 1.0;
+  static constexpr double share_of_shape = 0.4; // more shape costs conformity in length
   static constexpr double min_improvement = 1.0 + 1e-4;
   static constexpr double min_slide_quality = 0.5;
 
