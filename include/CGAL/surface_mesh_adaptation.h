@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/attribute_transfer.h>
 #include <CGAL/Surface_mesh_adaptation/exponential_map.h>
 #include <CGAL/Surface_mesh_adaptation/feature_normals.h>
+#include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
 #include <CGAL/Surface_mesh_adaptation/patch_fallbacks.h>
 #include <CGAL/Surface_mesh_adaptation/refine.h>
 #include <CGAL/Surface_mesh_adaptation/relocate.h>

@@ -7,6 +7,8 @@
 #include "policies.h"
 #include "shapes.h"
 
+#include <CGAL/Surface_mesh_adaptation/metric.h>
+#include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
 #include <CGAL/Surface_mesh_adaptation/refine.h>
 #include <CGAL/Surface_mesh_adaptation/relocate.h>
 #include <CGAL/Surface_mesh_adaptation/simplify.h>
@@ -352,6 +354,223 @@ TEST(Relocate, spreads_the_vertices_of_a_boundary_evenly)
   }
   EXPECT_LT(longest, 0.13); // 0.19 and 0.01 at the start
   EXPECT_GT(shortest, 0.07);
+}
+
+// The optimisation of relocation, alone and in it
+
+using SMA::Linear_function_2;
+using SMA::Vector_2;
+
+/// The least maximum in the square, from all points where two of the functions, or one and a side, or two sides meet.
+double least_maximum(const SMA::Ring<Linear_function_2>& functions, double radius)
+{
+  std::vector<Eigen::Vector3d> lines; // a x + b y = c
+  for (const double s : {-radius, radius}) {
+    lines.emplace_back(1, 0, s);
+    lines.emplace_back(0, 1, s);
+  }
+  for (std::size_t i = 0; i < functions.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const Vector_2 g = functions[i].gradient - functions[j].gradient;
+      lines.emplace_back(g.x(), g.y(), functions[j].value - functions[i].value);
+    }
+  double least = maximum(functions, Vector_2(0, 0));
+  for (const Eigen::Vector3d& k : lines)
+    for (const Eigen::Vector3d& l : lines) {
+      const double det = k[0] * l[1] - k[1] * l[0];
+      const Vector_2 x((k[2] * l[1] - k[1] * l[2]) / det, (k[0] * l[2] - k[2] * l[0]) / det);
+      if (x.cwiseAbs().maxCoeff() <= radius * (1 + 1e-12)) least = (std::min)(least, maximum(functions, x));
+    }
+  return least;
+}
+
+TEST(Minimize_maximum, finds_the_optimum_of_brute_force)
+{
+  shapes::Random random(11);
+  for (int trial = 0; trial < 2000; ++trial) {
+    SMA::Ring<Linear_function_2> functions;
+    for (std::size_t n = 1 + random.below(10); n > 0; --n)
+      functions.push_back({random.real(1, 3), random.vector().head<2>() * (trial % 3 == 0 ? 0.2 : 5)});
+    if (trial % 5 == 0) functions.push_back(functions[0]); // equal ones, parallel ones, a constant
+    if (trial % 7 == 0) functions.push_back({functions[0].value + 0.1, functions[0].gradient});
+    if (trial % 11 == 0) functions.push_back({random.real(0, 3), Vector_2(0, 0)});
+    const double radius = random.real(0.01, 2);
+    const Vector_2 d = minimize_maximum(functions, radius);
+    EXPECT_LE(d.cwiseAbs().maxCoeff(), radius * (1 + 1e-12));
+    EXPECT_NEAR(maximum(functions, d), least_maximum(functions, radius), 1e-9);
+  }
+}
+
+/// A star-shaped ring around a vertex of the plane that may move, in a metric of ratio `stretch`.
+struct Plane_star
+{
+  std::vector<Vector_2> ring;
+  SMA::Anisotropic_metric metric;
+
+  Plane_star(shapes::Random& random, double stretch)
+    : metric{SMA::Metric_tensor_3(1 / (stretch * stretch), 0, 1, 0, 0, 1)}
+  {
+    const std::size_t n = 5 + random.below(4);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double angle = 2 * shapes::pi * (double(i) + random.real(-0.35, 0.35)) / double(n);
+      const double r = random.real(0.5, 1.5);
+      ring.emplace_back(stretch * r * std::cos(angle), r * std::sin(angle));
+    }
+  }
+
+  SMA::Ring<Linear_function_2> distortions(const Vector_2& p) const
+  {
+    SMA::Ring<Linear_function_2> functions;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vector_2 a = ring[i] - p, b = ring[(i + 1) % ring.size()] - p;
+      const bool is_upright = a.x() * b.y() > a.y() * b.x();
+      const Vector_3 ea(a.x(), a.y(), 0), eb(b.x(), b.y(), 0);
+      const SMA::Distortion d = face_distortion(metric, metric, metric, ea, eb);
+      functions.push_back({is_upright ? d.value : INFINITY, d.gradient.head<2>()});
+    }
+    return functions;
+  }
+
+  double worst(const Vector_2& p) const { return maximum(distortions(p), Vector_2(0, 0)); }
+
+  /// Mean of the ring, weighted by areas: where diffusion leaves the vertex.
+  Vector_2 centroid() const
+  {
+    Vector_2 sum(0, 0);
+    double area = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vector_2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      const double w = a.x() * b.y() - a.y() * b.x();
+      sum += w * (a + b) / 3;
+      area += w;
+    }
+    return sum / area;
+  }
+
+  /// `worst`, continued outside of where all faces are upright such that the way back is downhill.
+  double continued_worst(const Vector_2& p) const
+  {
+    double least = 0;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vector_2 a = ring[i] - p, b = ring[(i + 1) % ring.size()] - p;
+      least = (std::min)(least, a.x() * b.y() - a.y() * b.x());
+    }
+    return least < 0 ? 1e9 - least : (std::min)(1e9, worst(p));
+  }
+
+  /// The least worst distortion, by nested line searches: the points where a face is no worse than some bound form a
+  /// disc in the metric, so that all functions here have one minimum.
+  double optimum() const
+  {
+    const auto least_on = [](double low, double high, const auto& f) {
+      constexpr double golden = 0.6180339887498949;
+      double a = high - golden * (high - low), b = low + golden * (high - low), fa = f(a), fb = f(b);
+      for (int i = 0; i < 60; ++i)
+        if (fa < fb) {
+          high = b, b = a, fb = fa, a = high - golden * (high - low), fa = f(a);
+        } else {
+          low = a, a = b, fa = fb, b = low + golden * (high - low), fb = f(b);
+        }
+      return (std::min)(fa, fb);
+    };
+    const double stretch = 1 / std::sqrt(metric.m[0]);
+    return least_on(-1.5 * stretch, 1.5 * stretch, [&](double x) {
+      return least_on(-1.5, 1.5, [&](double y) { return continued_worst(Vector_2(x, y)); });
+    });
+  }
+};
+
+/// What is left of the possible decrease of the worst distortion after so many rounds from the centroid, sorted.
+std::vector<double> remaining_gaps(double stretch, int rounds)
+{
+  shapes::Random random(12);
+  std::vector<double> gaps;
+  while (gaps.size() < 100) {
+    const Plane_star star(random, stretch);
+    Vector_2 p = star.centroid();
+    const double start = star.worst(p), optimum = star.optimum();
+    if (!std::isfinite(start) || start < optimum * 1.001) continue;
+    SMA::minimize_worst(p, 0.5, rounds, 0, [&](const Vector_2& x) { return star.distortions(x); },
+                   [](const Vector_2& x, const Vector_2& d) { return Vector_2(x + d); },
+                   [&](const Vector_2& x) { return star.worst(x); });
+    gaps.push_back((star.worst(p) - optimum) / (start - optimum));
+  }
+  std::sort(gaps.begin(), gaps.end());
+  return gaps;
+}
+
+TEST(Minimize_worst, never_raises_the_maximum_and_closes_the_gap_in_five_rounds)
+{
+  for (const double stretch : {1.0, 10.0})
+    for (const int rounds : {1, 3, 5, 50}) {
+      SCOPED_TRACE(std::to_string(stretch) + " after rounds: " + std::to_string(rounds));
+      const std::vector<double> gaps = remaining_gaps(stretch, rounds);
+      EXPECT_LE(gaps.back(), 1);
+      EXPECT_GE(gaps.front(), -1e-6); // no better than the optimum
+      if (rounds >= 5) { EXPECT_LT(gaps[gaps.size() / 2], 1e-3); }
+      if (rounds == 50) { EXPECT_LT(gaps.back(), 1e-3); }
+    }
+}
+
+TEST(Minimize_worst, stops_where_it_is_good_enough)
+{
+  shapes::Random random(13);
+  const Plane_star star(random, 1);
+  Vector_2 p = star.centroid();
+  int evaluations = 0;
+  SMA::minimize_worst(p, 0.5, 5, star.worst(p), [&](const Vector_2& x) { return star.distortions(x); },
+                 [](const Vector_2& x, const Vector_2& d) { return Vector_2(x + d); },
+                 [&](const Vector_2& x) { return ++evaluations, star.worst(x); });
+  EXPECT_EQ(evaluations, 1);
+  EXPECT_EQ(p, star.centroid());
+}
+
+TEST(Relocate, puts_a_vertex_where_its_worst_face_is_best_or_good)
+{
+  shapes::Random random(14);
+  std::vector<double> gaps;
+  for (int trial = 0; trial < 100; ++trial) {
+    const Plane_star star(random, 1);
+    const double best = 1 / star.optimum();
+    if (best > 0.75) continue; // diffusion may keep what is good
+    Soup soup;
+    for (const Vector_2& q : star.ring) soup.points.emplace_back(q.x(), q.y(), 0);
+    soup.points.emplace_back(star.centroid().x(), star.centroid().y(), 0);
+    const Index n = Index(star.ring.size());
+    for (Index i = 0; i < n; ++i) soup.triangles.push_back({i, (i + 1) % n, n});
+    if (!(checks::least_area(soup, [](const Vector_3&) { return Vector_3(0, 0, 1); }) > 0)) continue;
+    Mesh mesh = shapes::mesh<Mesh>(soup);
+    const auto is_fixed = mesh.add_property_map<Mesh::Vertex_index, bool>("v:fixed", true).first;
+    is_fixed[Mesh::Vertex_index(n)] = false;
+    SMA::relocate(mesh, SMA::Uniform_metric_field(1), params::vertex_is_constrained_map(is_fixed));
+    const Soup after = shapes::soup(mesh);
+    EXPECT_GE(checks::least_quality(after), checks::least_quality(soup) * (1 - 1e-12));
+    gaps.push_back((best - checks::least_quality(after)) / best);
+  }
+  ASSERT_GT(gaps.size(), 20u);
+  std::sort(gaps.begin(), gaps.end());
+  EXPECT_LT(gaps[gaps.size() / 2], 0.01);
+  EXPECT_LT(gaps.back(), 0.1);
+}
+
+TEST(Relocate, shifts_the_sides_of_a_narrow_strip_against_each_other)
+{
+  // no vertex inside: triangles that lean over, where isosceles ones would be better
+  const double width = 0.2;
+  Soup strip;
+  for (int i = 0; i <= 20; ++i)
+    for (const double y : {0.0, width}) strip.points.emplace_back(y > 0 && i > 0 && i < 20 ? i + 0.2 : i, y, 0);
+  for (Index i = 0; i < 40; i += 2) {
+    strip.triangles.push_back({i, i + 2, i + 1});
+    strip.triangles.push_back({i + 1, i + 2, i + 3});
+  }
+  Mesh mesh = shapes::mesh<Mesh>(strip);
+  SMA::relocate(mesh, SMA::Uniform_metric_field(1), params::number_of_iterations(50));
+  const Soup after = shapes::soup(mesh);
+  EXPECT_GT(checks::mean_quality(after), 1.05 * checks::mean_quality(strip));
+  EXPECT_GT(checks::least_quality(after), 1.15 * checks::least_quality(strip));
+  EXPECT_NEAR(checks::area(after), 20 * width, 1e-12);
+  EXPECT_GT(checks::least_area(after, [](const Vector_3&) { return Vector_3(0, 0, 1); }), 0);
 }
 
 TEST(Kernel, stops_after_the_sweeps_asked_for)

@@ -230,6 +230,34 @@ TEST(Face_quality, is_zero_for_degenerate_triangles)
 
 // Transport
 
+/// Differentiates the inverse of `face_quality` and compares.
+template <class Metric>
+void expect_gradient_of_distortion(const Metric& a, const Metric& b, const Metric& c, Random& random)
+{
+  const Vector_3 p = random.vector(), q = random.vector(), r = random.vector();
+  const auto value = [&](const Vector_3& x) { return 1 / face_quality(a, b, c, q - x, r - x); };
+  if (!(value(p) < 20)) return; // where finite differences say something
+  const SMA::Distortion f = face_distortion(a, b, c, q - p, r - p);
+  EXPECT_NEAR(f.value, value(p), 1e-12 * f.value);
+  for (int i = 0; i < 3; ++i) {
+    constexpr double h = 1e-6;
+    const double difference = (value(p + h * Vector_3::Unit(i)) - value(p - h * Vector_3::Unit(i))) / (2 * h);
+    EXPECT_NEAR(f.gradient[i], difference, 1e-5 * (1 + f.gradient.norm()));
+  }
+}
+
+TEST(Face_distortion, is_the_inverse_of_the_quality_with_its_gradient)
+{
+  Random random(21);
+  for (int i = 0; i < trials; ++i) {
+    expect_gradient_of_distortion(Isotropic_metric{2}, Isotropic_metric{3}, Isotropic_metric{4}, random);
+    const Anisotropic_metric a{random_metric(random, 3)}, b{random_metric(random, 3)}, c{random_metric(random, 3)};
+    expect_gradient_of_distortion(a, b, c, random);
+  }
+  const Isotropic_metric one;
+  EXPECT_EQ(face_distortion(one, one, one, Vector_3(1, 0, 0), Vector_3(2, 0, 0)).value, INFINITY);
+}
+
 TEST(Minimal_rotation, takes_one_normal_to_the_other)
 {
   Random random(11);

@@ -212,6 +212,15 @@ public:
     return {Vertex_class::curve, curve, s, 0};
   }
 
+  /// Unit tangent at a location on a curve, in the direction of increasing arc length.
+  Vector_3 curve_tangent(const Location& l) const
+  {
+    const Feature_curve& c = features.curves[l.cell];
+    const std::size_t i = c.segment(l.u);
+    const double t = c.parameter(i, l.u);
+    return ((1 - t) * c.tangents[i] + t * c.tangents[i + 1]).normalized();
+  }
+
   /// Barycentric coordinates and vertices of the reference that `l` lies between: for what is interpolated linearly.
   struct Interpolation
   {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -113,6 +114,43 @@ template <class Metric>
 double face_quality(const Metric& a, const Metric& b, const Metric& c, const Vector_3& e1, const Vector_3& e2)
 {
   return internal::squared_shape(a, b, c, e1, e2, e1.cross(e2)).quality();
+}
+
+/// The inverse of the quality of a triangle, at least 1, and how it changes with the first corner.
+struct Distortion
+{
+  double value;        ///< infinite if degenerate
+  Vector_3 gradient;   ///< for fixed metrics; as a vector of space, to be projected onto the directions of interest
+};
+
+namespace internal {
+
+/// `e` by the scalar product in which the shape of a triangle with these metrics at its corners is measured.
+inline Vector_3 dual(const Isotropic_metric&, const Isotropic_metric&, const Isotropic_metric&, const Vector_3& e)
+{
+  return e;
+}
+
+inline Vector_3 dual(const Anisotropic_metric& a, const Anisotropic_metric& b, const Anisotropic_metric& c,
+                     const Vector_3& e)
+{
+  return (a.m + b.m + c.m) * e;
+}
+
+} // namespace internal
+
+/// Distortion of the triangle of `face_quality`.
+template <class Metric>
+Distortion face_distortion(const Metric& a, const Metric& b, const Metric& c, const Vector_3& e1, const Vector_3& e2)
+{
+  const Vector_3 m1 = internal::dual(a, b, c, e1), m2 = internal::dual(a, b, c, e2);
+  const double e11 = e1.dot(m1), e12 = e1.dot(m2), e22 = e2.dot(m2);
+  const double half_sum = e11 + e22 - e12, squared_double_area = e11 * e22 - e12 * e12;
+  if (!(squared_double_area > 0)) return {std::numeric_limits<double>::infinity(), Vector_3::Zero()};
+  const double value = half_sum / std::sqrt(3 * squared_double_area);
+  // moving the corner by d takes d from both edge vectors
+  const Vector_3 of_area = (e22 - e12) * m1 + (e11 - e12) * m2;
+  return {value, value * (of_area / squared_double_area - (m1 + m2) / half_sum)};
 }
 
 /// Relative mass of a triangle: `projected_area`, up to a constant, times the density of the metric at its corners.

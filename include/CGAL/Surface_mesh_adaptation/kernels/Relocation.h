@@ -4,13 +4,15 @@
 //
 // Diffusion towards the centre of mass of the surrounding faces, weighted by the density of the metric (equation 1), and
 // towards where these would be equilateral; over-relaxed, with a step that is halved until no face is made worse than
-// allowed. Curve vertices move along their curve to balance the metric lengths on both sides; corners stay.
+// allowed. Curve vertices move along their curve to balance the metric lengths on both sides; corners stay. Where that
+// does nothing for a vertex with a bad face around it, its worst distortion is minimised (minimize_worst.h), until no
+// face is bad.
 //
 // Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Where a face is
 // not flat, the test for folds also looks at the vertices behind the ring: if these may be moving, the vertex is put off
 // until they stand still.
 // Invariants: connectivity is not touched; no face is turned away from the surface; the worst face around a vertex
-// never falls below both what it was and `good_quality`.
+// never falls below both what it was and `good_quality`, or `good_quality_on_curves` if the vertex lies on one.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
@@ -19,9 +21,11 @@
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -30,7 +34,8 @@ namespace Surface_mesh_adaptation {
 
 struct Relocation_thresholds
 {
-  double good_quality = 0.8;   ///< moves that leave no face below are always accepted
+  double good_quality = 0.8;   ///< moves that leave no face below are always accepted; worse faces are optimised
+  double good_quality_on_curves = 0.65; ///< the same for vertices on curves: equal lengths along these count, too
   double min_move = 0.03;      ///< metric length below which a move is not worth it
   double noticeable_move = 0.2; ///< the same in the first sweep over a mesh that is adapted already
 };
@@ -130,13 +135,20 @@ private:
     double alignment = 1;
   };
 
+  double good_quality(Index v) const
+  {
+    const bool is_on_curve = surface_.vertex_class(v) == Vertex_class::curve;
+    return is_on_curve ? thresholds_.good_quality_on_curves : thresholds_.good_quality;
+  }
+
   /// Tries to move `v`, while those vertices of which `attempt.stands_still` says so do not move.
   template <class StandsStill>
   bool examine(Index v, Attempt<StandsStill>& attempt)
   {
     const Star star = star_of(v);
-    const bool moved = surface_.vertex_class(v) == Vertex_class::curve ? slide(v, star, attempt)
-                                                                       : diffuse(v, star, attempt);
+    const bool moved = (surface_.vertex_class(v) == Vertex_class::curve ? slide(v, star, attempt)
+                                                                        : diffuse(v, star, attempt)) ||
+                       (!attempt.is_put_off && optimize(v, star, attempt));
     if (!moved && !attempt.is_put_off) deactivate(surface_, v, Activity::relocate);
     return moved;
   }
@@ -277,6 +289,95 @@ private:
     return false;
   }
 
+  /// The directions in which a vertex may move, orthonormal in its metric: steps in them do not depend on how stretched
+  /// the faces are.
+  struct Frame
+  {
+    Vector_3 u;
+    Vector_3 v;  ///< zero on curves
+
+    Vector_3 vector(const Vector_2& d) const { return d.x() * u + d.y() * v; }
+  };
+
+  Frame frame(const Placed_vertex<Metric>& p) const
+  {
+    const Metric_tensor_3 m = p.metric.tensor();
+    const bool is_smooth = p.location.kind == Vertex_class::smooth;
+    Vector_3 u = is_smooth ? p.normal.unitOrthogonal() : surface_.reference().curve_tangent(p.location);
+    u /= m.length(u);
+    if (!is_smooth) return {u, Vector_3::Zero()};
+    Vector_3 v = p.normal.cross(u);
+    v -= m.dot(u, v) * u;
+    return {u, v / m.length(v)};
+  }
+
+  /// `p` moved along the surface, or along its curve, by `d` in the directions of its frame.
+  Placed_vertex<Metric> moved(const Placed_vertex<Metric>& p, const Vector_2& d) const
+  {
+    const Frame f = frame(p);
+    if (p.location.kind == Vertex_class::smooth)
+      return surface_.place(surface_.reference().trace(p.location, f.vector(d), true));
+    return surface_.place(surface_.reference().on_curve(p.location.cell, p.location.u + d.x() * f.u.norm()));
+  }
+
+  /// The distortions of the faces around `p` and how they change with it.
+  CGAL_SMA_FLATTEN Ring<Linear_function_2> distortions(const Star& star, const Placed_vertex<Metric>& p) const
+  {
+    const Frame f = frame(p);
+    Ring<Linear_function_2> functions;
+    star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
+      const Distortion d = face_distortion(p.metric, a.metric, b.metric, a.point - p.point, b.point - p.point);
+      functions.push_back({d.value, {d.gradient.dot(f.u), d.gradient.dot(f.v)}});
+    });
+    return functions;
+  }
+
+  /// Whether no face around `v` is worse than `q`.
+  CGAL_SMA_FLATTEN bool has_quality(const Star& star, const Placed_vertex<Metric>& v, double q) const
+  {
+    return star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
+      const Vector_3 ea = a.point - v.point, eb = b.point - v.point;
+      return internal::squared_shape(v.metric, a.metric, b.metric, ea, eb, ea.cross(eb)).is_at_least(q);
+    });
+  }
+
+  /// Whether a face around a vertex that was at `start` turns by more than 90 degrees if it is put at `p`.
+  static bool is_turned(const Star& star, const Vector_3& start, const Vector_3& p)
+  {
+    return !star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
+      return (a.point - start).cross(b.point - start).dot((a.point - p).cross(b.point - p)) > 0;
+    });
+  }
+
+  /// Moves `v` to where its worst face is better, if it has a bad one.
+  template <class StandsStill>
+  bool optimize(Index v, const Star& star, Attempt<StandsStill>& attempt)
+  {
+    const Placed_vertex<Metric> start = surface_.vertex(v);
+    const double enough = good_quality(v);
+    if (has_quality(star, start, enough)) return false;
+    const Shape before = shape(star, start);
+    if (!(before.worst > 0)) return false;
+    double radius = 0;
+    for (const Neighbor& n : star.ring) radius += start.metric.length(n.point - start.point) / double(star.ring.size());
+    Placed_vertex<Metric> best = start;
+    minimize_worst(
+      best, max_step * radius, max_optimization_rounds, 1 / enough,
+      [&](const Placed_vertex<Metric>& x) { return distortions(star, x); },
+      [&](const Placed_vertex<Metric>& x, const Vector_2& d) { return moved(x, d); },
+      [&](const Placed_vertex<Metric>& x) {
+        const Shape s = shape(star, x);
+        const bool is_allowed = s.worst > 0 && s.alignment >= (std::min)(min_alignment, before.alignment) &&
+                                !is_turned(star, start.point, x.point);
+        return is_allowed ? 1 / s.worst : std::numeric_limits<double>::infinity();
+      });
+    const Shape after = shape(star, best);
+    if (!(after.worst > least_gain * before.worst) || !is_upright(v, before, after, best, attempt)) return false;
+    surface_.set(v, best);
+    activate_around(v, star, best);
+    return true;
+  }
+
   /// Moves a curve vertex to where its two curve edges have the same metric length.
   template <class StandsStill>
   bool slide(Index v, const Star& star, Attempt<StandsStill>& attempt)
@@ -297,11 +398,11 @@ private:
     const double d = l0 > l1 ? d0 * 0.5 * (l0 - l1) / l0 : d1 * 0.5 * (l1 - l0) / l1;
     if (std::abs(l0 - l1) < 2 * min_move_) return false;
     const Shape before = shape(star, surface_.vertex(v));
+    const double limit = (std::min)(before.worst, good_quality(v));
     for (const double scale : {1.0, 0.5}) {
       const auto moved = surface_.place(surface_.reference().on_curve(curve, arc0.first + scale * d));
       const Shape after = shape(star, moved);
-      if (after.worst < (std::min)(before.worst, min_slide_quality) || !is_upright(v, before, after, moved, attempt))
-        continue;
+      if (after.worst < limit || !is_upright(v, before, after, moved, attempt)) continue;
       surface_.set(v, moved);
       activate_around(v, star, moved);
       return true;
@@ -314,7 +415,9 @@ private:
   static constexpr double over_relaxation = 2.2, plain_relaxation = 1.0;
   static constexpr double share_of_shape = 0.4; // more shape costs conformity in length
   static constexpr double min_improvement = 1.0 + 1e-4;
-  static constexpr double min_slide_quality = 0.5;
+  static constexpr double least_gain = 1.01;       // of optimisation: the factor of the worst quality
+  static constexpr double max_step = 0.5;          // of its first step, in mean lengths of the edges at the vertex
+  static constexpr int max_optimization_rounds = 5;
 
   const Execution& execution_;
   Surface& surface_;
