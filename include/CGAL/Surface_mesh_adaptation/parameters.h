@@ -21,6 +21,8 @@ enum output_metric_map_t { output_metric_map };
 enum surface_reconstruction_t { surface_reconstruction };
 enum vertex_shape_operator_map_t { vertex_shape_operator_map };
 enum vertex_attribute_maps_t { vertex_attribute_maps };
+enum maximum_normal_deviation_t { maximum_normal_deviation };
+enum maximum_distance_t { maximum_distance };
 
 } // namespace internal_np
 

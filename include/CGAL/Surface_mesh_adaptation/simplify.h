@@ -4,17 +4,64 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_SIMPLIFY_H
 
 #include <CGAL/Surface_mesh_adaptation/internal/run_kernel.h>
-#include <CGAL/Surface_mesh_adaptation/kernels/Simplification.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Approximation.h>
+
+#include <CGAL/number_type_config.h>
+
+#include <cmath>
+#include <limits>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+
+/// Long faces are good ones where the surface bends in one direction only.
+constexpr double min_quality_of_approximation = 0.02;
+
+namespace internal {
+
+/// The limits that the parameters ask for.
+/// \throws Invalid_parameter_error
+template <class NamedParameters>
+Deviation_limits deviation_limits(const NamedParameters& np)
+{
+  Deviation_limits limits;
+  const double degrees = choose(np, internal_np::maximum_normal_deviation, 180.0);
+  limits.distance = choose(np, internal_np::maximum_distance, limits.distance);
+  if (!(degrees > 0 && degrees <= 180))
+    throw Invalid_parameter_error("the normal deviation must lie between 0 and 180 degrees");
+  if (!(limits.distance > 0)) throw Invalid_parameter_error("the distance must be positive");
+  limits.min_cosine = std::cos(degrees * CGAL_PI / 180);
+  return limits;
+}
+
+} // namespace internal
 
 /*!
 Collapses the edges that are shorter than `1/sqrt 2` in the metric where that makes no edge too long, no face bad and
 keeps the features (paper, section 5).
 
+With a limit on the normals or on the distance, the collapses that cost least of it go first, and go on until
+the limits allow no more; then the vertices, but for corners, are moved off the surface a little, so that the faces run
+through it instead of touching it from one side: that takes half of the largest error and more of the mean away. A large
+metric leaves everything to the limits.
+
 \param execution, mesh, field, np as for `adapt_surface_mesh`; `number_of_iterations` is the largest number of sweeps
-       (default: 24), and the visitor's `go_on` is asked after each of them
+       (default: 24, or with limits as many as it takes), and the visitor's `go_on` is asked after each of them. Beside:
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{maximum_normal_deviation}
+    \cgalParamDescription{the largest angle between the normal of a face and those of the faces of the input that it
+                          stands for, in degrees}
+    \cgalParamType{`double`}
+    \cgalParamDefault{no limit}
+  \cgalParamNEnd
+  \cgalParamNBegin{maximum_distance}
+    \cgalParamDescription{the largest distance between the surface, at the vertices, middles of the edges and centroids of
+                          the faces of the input, and the faces that stand for these}
+    \cgalParamType{`double`, in the unit of the coordinates}
+    \cgalParamDefault{no limit}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
 
 \returns the number of vertices removed
 \throws an exception derived from `Adaptation_error`, before the mesh is changed
@@ -24,9 +71,20 @@ template <class Execution, class TriangleMesh, class MetricField,
 auto simplify(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
               const NamedParameters& np = CGAL::parameters::default_values()) -> decltype(execution.concurrency(), std::size_t())
 {
-  return internal::run_kernel(execution, mesh, field, np, 24, [](const auto& policy, auto& surface) {
-    return Simplification(policy, surface, Simplification_thresholds());
-  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });
+  const auto sweep = [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); };
+  if constexpr (internal::has_parameter<NamedParameters, internal_np::maximum_normal_deviation_t> ||
+                internal::has_parameter<NamedParameters, internal_np::maximum_distance_t>) {
+    const Deviation_limits limits = internal::deviation_limits(np);
+    return internal::run_kernel(execution, mesh, field, np, (std::numeric_limits<unsigned>::max)(),
+                                [&](const auto& policy, auto& surface) {
+      Simplification_thresholds thresholds;
+      thresholds.min_quality = min_quality_of_approximation;
+      return Approximation(policy, surface, thresholds, limits);
+    }, sweep);
+  } else
+    return internal::run_kernel(execution, mesh, field, np, 24, [](const auto& policy, auto& surface) {
+      return Simplification(policy, surface, Simplification_thresholds());
+    }, sweep);
 }
 
 /// The same with the policy as a template parameter, as for `adapt_surface_mesh`.

@@ -17,3 +17,5 @@ CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::output_metr
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::surface_reconstruction_t, surface_reconstruction)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::vertex_attribute_maps_t, vertex_attribute_maps)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::vertex_shape_operator_map_t, vertex_shape_operator_map)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::maximum_normal_deviation_t, maximum_normal_deviation)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::maximum_distance_t, maximum_distance)

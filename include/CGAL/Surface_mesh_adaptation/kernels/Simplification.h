@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Simplification: removes the vertices at the end of edges that are too short in the metric by collapsing these
-// (paper, figure 2 and section 5).
+// (paper, figure 2 and section 5): the shortest first, or, within limits on what a face may deviate from the points that
+// it stands for, the cheapest of a vertex below a bound that rises from sweep to sweep.
 //
 // Conflict neighbourhood of s -> d: the closed one-ring of s. The vertex d stays where it is, so nothing outside is
-// written; the design's brute-force trials and ours (test_mesh_view) found no invalid result.
+// written; the design's brute-force trials and ours (test_mesh_view) found no invalid result. Where a face is not flat, the
+// test for folds also looks at the faces behind the ring: if these may be changing, the vertex is put off.
 // Invariants: simplicial 2-manifold, components, genus, boundary cycles; corners stay; curve vertices vanish only
 // along their curve; no face turns away from the surface.
 // Work: O(active vertices) a sweep; span: the work of a block and the passes of the border.
@@ -13,6 +15,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SIMPLIFICATION_H
 
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/Represented_points.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
@@ -42,6 +45,26 @@ public:
     : execution_(execution), surface_(surface), mesh_(surface.mesh), thresholds_(thresholds)
   {}
 
+  /// The same, limited by what faces may deviate from the points that they stand for, which it keeps up to date.
+  Simplification(const Execution& execution, Surface& surface, const Simplification_thresholds& thresholds,
+                 Represented_points<Surface>& represented)
+    : Simplification(execution, surface, thresholds)
+  {
+    represented_ = &represented;
+    fill(execution, least_cost_, mesh_.number_of_vertices(), 0.0);
+  }
+
+  /// Collapses that cost more wait. \pre points are represented
+  void set_bound(double cost) { bound_ = cost; }
+
+  /// The least cost of a collapse that waits for a higher bound, or infinity.
+  double next_cost() const
+  {
+    return reduce(execution_, mesh_.number_of_vertices(), Represented_points<Surface>::too_much, [&](std::size_t v) {
+      return mesh_.is_removed_vertex(Index(v)) ? Represented_points<Surface>::too_much : least_cost_[v];
+    }, [](double a, double b) { return (std::min)(a, b); });
+  }
+
   /// Examines every active vertex once. Returns the number of vertices removed.
   std::size_t sweep(Sweep_counts& counts)
   {
@@ -49,10 +72,12 @@ public:
     std::vector<Index> deferred = sweep_blocks(
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
-        if (mesh_.is_removed_vertex(v) || !is_active(surface_, v, Activity::simplify)) return;
+        if (mesh_.is_removed_vertex(v) || !is_due(v)) return;
         if (!block.contains_ring(mesh_, v)) return list.push_back(v);
         ++c.candidates;
-        c.applied += examine(v, [&](Index w) { return block.contains(w) && block.contains_ring(mesh_, w); });
+        bool is_put_off = false;
+        c.applied += examine(v, [&](Index w) { return block.contains(w); }, is_put_off);
+        if (is_put_off) list.push_back(v);
       });
     for (std::uint32_t round = 0; !deferred.empty() && round < max_border_rounds; ++round)
       sweep_border(deferred, round, local);
@@ -61,14 +86,26 @@ public:
     return local.applied;
   }
 
-  /// The best valid collapse that removes `s`; `h == no_index` if there is none. Looks at the ring of `s`, and at those of
-  /// vertices further along its curve that `may_see` allows.
-  template <class MaySee>
-  CGAL_SMA_FLATTEN Mesh_view::Directed_edge propose(Index s, const MaySee& may_see) const
+  void apply(const Mesh_view::Directed_edge& e)
   {
+    mesh_.for_each_neighbor(mesh_.vanishing_vertex(e), [&](Index x) { activate(surface_, x); });
+    if (represented_ != nullptr) represented_->hand_over(e);
+    mesh_.collapse(e);
+  }
+
+private:
+  static constexpr std::uint32_t max_border_rounds = 8; // what is left then is examined by the next sweep
+
+  /// The best valid collapse that removes `s`; `h == no_index` if there is none. On a curve, its neighbours count as far
+  /// as they may be seen. A test for folds looks at the faces behind those around `s`: where one of their vertices may
+  /// not be seen, `is_put_off` is set and there is none.
+  template <class IsSeen>
+  CGAL_SMA_FLATTEN Mesh_view::Directed_edge propose(Index s, const IsSeen& is_seen, bool& is_put_off)
+  {
+    if (represented_ != nullptr) least_cost_[s] = Represented_points<Surface>::too_much;
     if (surface_.vertex_class(s) == Vertex_class::corner) return {};
     Ring<std::pair<double, Mesh_view::Directed_edge>> short_edges;
-    const double limit = max_length_to_collapse(s, may_see);
+    const double limit = max_length_to_collapse(s, is_seen);
     const auto consider = [&](const Mesh_view::Directed_edge& e) {
       if (!may_slide_along(s, e.h)) return;
       const double length = surface_.length(e.h);
@@ -83,30 +120,35 @@ public:
     std::sort(short_edges.begin(), short_edges.end(), [&](const auto& a, const auto& b) {
       return a.first < b.first || (a.first == b.first && mesh_.kept_vertex(a.second) < mesh_.kept_vertex(b.second));
     });
-    for (const auto& candidate : short_edges)
-      if (is_valid(candidate.second)) return candidate.second;
-    return {};
-  }
-
-  void apply(const Mesh_view::Directed_edge& e)
-  {
-    mesh_.for_each_neighbor(mesh_.vanishing_vertex(e), [&](Index x) { activate(surface_, x); });
-    mesh_.collapse(e);
-  }
-
-private:
-  static constexpr std::uint32_t max_border_rounds = 8; // what is left then is examined by the next sweep
-
-  template <class MaySee>
-  bool examine(Index v, const MaySee& may_see)
-  {
-    const Mesh_view::Directed_edge e = propose(v, may_see);
-    if (e.h == no_index) {
-      deactivate(surface_, v, Activity::simplify);
-      return false;
+    Mesh_view::Directed_edge best;
+    for (const auto& candidate : short_edges) {
+      const Mesh_view::Directed_edge& e = candidate.second;
+      if (!is_valid(e, is_seen, is_put_off)) continue;
+      if (represented_ != nullptr) {
+        const double cost = represented_->cost(e, least_cost_[s]);
+        if (!(cost < least_cost_[s])) continue;
+        least_cost_[s] = cost;
+      }
+      best = e;
+      if (represented_ == nullptr) break;
     }
-    apply(e);
-    return true;
+    const bool is_affordable = represented_ == nullptr || least_cost_[s] <= bound_;
+    return is_affordable && !is_put_off ? best : Mesh_view::Directed_edge();
+  }
+
+  /// Whether `v` has not been looked at since something changed around it, or waited for the present bound.
+  bool is_due(Index v) const
+  {
+    return is_active(surface_, v, Activity::simplify) || (represented_ != nullptr && least_cost_[v] <= bound_);
+  }
+
+  template <class IsSeen>
+  bool examine(Index v, const IsSeen& is_seen, bool& is_put_off)
+  {
+    const Mesh_view::Directed_edge e = propose(v, is_seen, is_put_off);
+    if (e.h != no_index) apply(e);
+    else if (!is_put_off) deactivate(surface_, v, Activity::simplify);
+    return e.h != no_index;
   }
 
   void sweep_border(std::vector<Index>& vertices, std::uint32_t round, Sweep_counts& counts)
@@ -114,8 +156,10 @@ private:
     counts.candidates += vertices.size();
     proposals_.resize(vertices.size());
     for_each_index(execution_, vertices.size(), [&](std::size_t i) {
-      proposals_[i] = mesh_.is_removed_vertex(vertices[i]) ? Mesh_view::Directed_edge()
-                                                           : propose(vertices[i], [](Index) { return true; });
+      bool is_put_off = false;
+      proposals_[i] = mesh_.is_removed_vertex(vertices[i])
+                        ? Mesh_view::Directed_edge()
+                        : propose(vertices[i], [](Index) { return true; }, is_put_off);
     }, heavy_chunk_length);
     const auto valid = pack(execution_, vertices.size(), [&](std::size_t i) { return proposals_[i].h != no_index; });
     for_each_index(execution_, vertices.size(), [&](std::size_t i) {
@@ -126,8 +170,10 @@ private:
       execution_, valid.size(), reservations_,
       [&](std::size_t i) {
         const Mesh_view::Directed_edge& e = proposals_[valid[i]];
-        const double relative = surface_.length(e.h) / thresholds_.min_length;
-        return task_priority((std::min)(7u, std::uint32_t(8 * relative)), vertices[valid[i]], round);
+        const Index v = vertices[valid[i]];
+        const double relative = represented_ != nullptr ? least_cost_[v] / bound_
+                                                        : surface_.length(e.h) / thresholds_.min_length;
+        return task_priority((std::min)(7u, std::uint32_t(8 * relative)), v, round);
       },
       [&](std::size_t i, const auto& claim) {
         claim(vertices[valid[i]]);
@@ -145,11 +191,11 @@ private:
   }
 
   /// The edges along which `s` may vanish are shorter.
-  template <class MaySee>
-  double max_length_to_collapse(Index s, const MaySee& may_see) const
+  template <class IsSeen>
+  double max_length_to_collapse(Index s, const IsSeen& is_seen) const
   {
     if (!thresholds_.space_curves || surface_.vertex_class(s) != Vertex_class::curve) return thresholds_.min_length;
-    return is_collapsed_on_curve(surface_, s, may_see) ? max_curve_length : min_curve_length;
+    return is_collapsed_on_curve(surface_, s, is_seen) ? max_curve_length : min_curve_length;
   }
 
   bool may_slide_along(Index s, Index h) const
@@ -157,7 +203,8 @@ private:
     return surface_.vertex_class(s) == Vertex_class::smooth || mesh_.curve[h] == surface_.locations[s].cell;
   }
 
-  bool is_valid(const Mesh_view::Directed_edge& e) const
+  template <class IsSeen>
+  bool is_valid(const Mesh_view::Directed_edge& e, const IsSeen& is_seen, bool& is_put_off) const
   {
     const Index s = mesh_.vanishing_vertex(e), d = mesh_.kept_vertex(e);
     if (!mesh_.is_collapsible(e)) return false;
@@ -187,8 +234,13 @@ private:
                  (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit);
       return is_valid;
     });
-    return is_valid && (is_flat || surface_.sharpest_fold(s, surface_.points[d]) >=
-                                     (std::min)(min_fold, surface_.sharpest_fold(s, surface_.points[s])));
+    if (!is_valid || is_flat) return is_valid;
+    mesh_.for_each_outgoing(s, [&](Index h) {
+      const Index behind = mesh_.twin[Mesh_view::next(h)];
+      if (behind != no_index && !is_seen(mesh_.apex(behind))) is_put_off = true;
+    });
+    return !is_put_off && surface_.sharpest_fold(s, surface_.points[d]) >=
+                            (std::min)(min_fold, surface_.sharpest_fold(s, surface_.points[s]));
   }
 
   /// Whether the curve through `s` may skip it towards `d`: it must not turn too much there, the new edge must not be
@@ -228,6 +280,9 @@ private:
   Surface& surface_;
   Mesh_view& mesh_;
   Simplification_thresholds thresholds_;
+  Represented_points<Surface>* represented_ = nullptr;
+  Buffer<double> least_cost_; // of the collapses of each vertex, when it was last looked at
+  double bound_ = 0;
   std::vector<Mesh_view::Directed_edge> proposals_;
   Reservations reservations_;
 };

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Fitting: moves the vertices of a simplified mesh off the reference so that its faces run through the points that they
+// stand for instead of touching them from one side: with vertices on the surface, faces of edge length h are up to
+// h^2 k / 6 and on average h^2 k / 8 inside of it where both curvatures are k, and fitted ones within h^2 k / 8 on both
+// sides and 0 on average.
+//
+// Least squares over the represented points of their distance from the faces, in the direction of the closest point, and
+// of the vertices from their places on the reference: one block Jacobi step of Gauss-Newton a sweep.
+//
+// Conflict neighbourhood: none. Phases: faces (normal equations of their corners), vertices (step), faces (limits).
+// Invariants: connectivity and locations; corners stay; no face comes to violate a limit or turns by more than 60 degrees.
+// Work: O(represented points) a sweep; span: the points of a face.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H
+
+#include <CGAL/Surface_mesh_adaptation/Represented_points.h>
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+template <class Surface, class Execution>
+class Fitting
+{
+public:
+  /// No vertex moves further than `max_move` from its place on the reference.
+  Fitting(const Execution& execution, Surface& surface, const Represented_points<Surface>& represented, double max_move)
+    : execution_(execution), surface_(surface), mesh_(surface.mesh), represented_(represented), max_move_(max_move)
+  {
+    places_ = surface.points;
+  }
+
+  /// One step of all vertices.
+  void sweep()
+  {
+    equations_.resize(mesh_.number_of_halfedges());
+    for_each_face([&](Index f) { assemble(f); });
+    before_ = surface_.points;
+    for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
+      if (!mesh_.is_removed_vertex(Index(v)) && surface_.vertex_class(Index(v)) != Vertex_class::corner) step(Index(v));
+    }, heavy_chunk_length);
+    while (take_back() > 0) {}
+  }
+
+private:
+  struct Equations
+  {
+    Matrix_3 matrix = Matrix_3::Zero();
+    Vector_3 right_side = Vector_3::Zero();
+  };
+
+  template <class F>
+  void for_each_face(const F& f) const
+  {
+    for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t i) {
+      if (!mesh_.is_removed_face(Index(i))) f(Index(i));
+    }, heavy_chunk_length);
+  }
+
+  /// What the points of `f` ask of each of its corners while the two others stay.
+  void assemble(Index f)
+  {
+    std::array<Equations, 3> of_corner;
+    const Vector_3 normal = surface_.normal(3 * f);
+    represented_.for_each_point(f, [&](const internal::Closest_point& closest, double weight) {
+      const double distance = closest.offset.norm();
+      const bool is_inside = *std::min_element(closest.weights.begin(), closest.weights.end()) > 0;
+      const Vector_3 direction = is_inside || !(distance > 0) ? normal : Vector_3(closest.offset / distance);
+      const double residual = direction.dot(closest.offset);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double w = weight * closest.weights[i];
+        of_corner[i].matrix += w * closest.weights[i] * direction * direction.transpose();
+        of_corner[i].right_side += w * residual * direction;
+      }
+    });
+    for (std::size_t i = 0; i < 3; ++i) equations_[3 * std::size_t(f) + i] = of_corner[i];
+  }
+
+  void step(Index v)
+  {
+    Equations e;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      e.matrix += equations_[h].matrix;
+      e.right_side += equations_[h].right_side;
+    });
+    const double pull = attraction * e.matrix.trace();
+    if (!(pull > 0)) return;
+    e.matrix += pull * Matrix_3::Identity();
+    e.right_side += pull * (places_[v] - surface_.points[v]);
+    Vector_3 d = surface_.points[v] + damping * e.matrix.llt().solve(e.right_side) - places_[v];
+    const double length = d.norm();
+    if (length > max_move_) d *= max_move_ / length;
+    if (std::isfinite(length)) surface_.points[v] = places_[v] + d;
+  }
+
+  /// Puts the corners of the faces that the last step made bad back to where they were; returns the number of these
+  /// faces.
+  std::size_t take_back()
+  {
+    is_bad_.resize(mesh_.number_of_faces());
+    const std::size_t bad = count_if(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
+      return is_bad_[f] = !mesh_.is_removed_face(Index(f)) && is_bad(Index(f));
+    });
+    if (bad > 0)
+      for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
+        if (!mesh_.is_removed_vertex(Index(v)))
+          mesh_.for_each_outgoing(Index(v), [&](Index h) {
+            if (is_bad_[Mesh_view::face(h)] != 0) surface_.points[v] = before_[v];
+          });
+      });
+    return bad;
+  }
+
+  bool is_bad(Index f) const
+  {
+    const std::size_t h = 3 * std::size_t(f);
+    const Index a = mesh_.corner[h], b = mesh_.corner[h + 1], c = mesh_.corner[h + 2];
+    const bool has_moved = surface_.points[a] != before_[a] || surface_.points[b] != before_[b] ||
+                           surface_.points[c] != before_[c];
+    if (!has_moved) return false;
+    const Vector_3 old = (before_[b] - before_[a]).cross(before_[c] - before_[a]);
+    return surface_.normal(3 * f).dot(old) < min_turn * old.norm() || !represented_.are_within_limits(f);
+  }
+
+  static constexpr double attraction = 0.1; // of a vertex to its place, of that to the points: it is a point, too
+  static constexpr double damping = 0.8;    // the block Jacobi iteration has eigenvalues from 1/2 to 2
+  static constexpr double min_turn = 0.5;
+
+  const Execution& execution_;
+  Surface& surface_;
+  const Mesh_view& mesh_;
+  const Represented_points<Surface>& represented_;
+  double max_move_;
+  Buffer<Vector_3> places_, before_;
+  Buffer<Equations> equations_;
+  Buffer<std::uint8_t> is_bad_;
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H

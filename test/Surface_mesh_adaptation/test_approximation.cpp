@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Simplification within limits on distances and normals: that it keeps them, uses them up, and comes nearer to the input
+// than quadric errors do.
+
+#include "checks.h"
+#include "distances.h"
+#include "policies.h"
+#include "real_meshes.h"
+#include "shapes.h"
+
+#include <CGAL/Surface_mesh_adaptation/internal/closest_point.h>
+#include <CGAL/Surface_mesh_adaptation/simplify.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace {
+
+namespace SMA = CGAL::Surface_mesh_adaptation;
+namespace params = SMA::parameters;
+using distances::Mesh;
+using shapes::Soup;
+using shapes::Vector_3;
+
+/// Leaves everything to the limits.
+const SMA::Uniform_metric_field no_size(1e6);
+
+/// Cosine of the angle between the two that differ most: the normal of a face and that of `normal` at its corners and
+/// centroid.
+template <class Normal>
+double least_cosine(const Soup& soup, const Normal& normal)
+{
+  double least = 1;
+  for (const shapes::Triangle& t : soup.triangles) {
+    const Vector_3 &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
+    const Vector_3 n = (b - a).cross(c - a).normalized();
+    for (const Vector_3& p : {a, b, c, Vector_3((a + b + c) / 3)}) least = (std::min)(least, n.dot(normal(p)));
+  }
+  return least;
+}
+
+TEST(Closest_point_of_triangle, is_closer_than_any_other_point)
+{
+  shapes::Random random(7);
+  for (int i = 0; i < 2000; ++i) {
+    const Vector_3 a = random.vector(), b = random.vector(), c = random.vector(), p = 2 * random.vector();
+    const auto found = SMA::internal::closest_point_of_triangle(p, a, b, c);
+    const auto& w = found.weights;
+    EXPECT_GE((std::min)({w[0], w[1], w[2]}), -1e-12);
+    EXPECT_NEAR(w[0] + w[1] + w[2], 1, 1e-12);
+    EXPECT_LT((w[0] * a + w[1] * b + w[2] * c + found.offset - p).norm(), 1e-12);
+    double least = std::numeric_limits<double>::infinity();
+    for (int j = 0; j <= 20; ++j)
+      for (int k = 0; j + k <= 20; ++k)
+        least = (std::min)(least, (p - a - j / 20.0 * (b - a) - k / 20.0 * (c - a)).norm());
+    EXPECT_LE(found.offset.norm(), least + 1e-12);
+  }
+}
+
+TEST(Simplify_within_limits, keeps_normals_and_uses_the_limit_up)
+{
+  const Soup soup = shapes::sphere(5, 0.3);
+  const auto normal = [](const Vector_3& p) { return Vector_3(p.normalized()); };
+  for (const double degrees : {5.0, 10.0, 20.0}) {
+    SCOPED_TRACE(degrees);
+    Mesh mesh = shapes::mesh<Mesh>(soup);
+    SMA::simplify(mesh, no_size, params::maximum_normal_deviation(degrees));
+    const Soup result = shapes::soup(mesh);
+    ASSERT_TRUE(checks::is_manifold(result));
+    EXPECT_EQ(checks::topology(result), checks::topology(soup));
+    // the normals of the input faces that a face stands for are up to 1.3 degrees off those of the sphere
+    EXPECT_GT(least_cosine(result, normal), std::cos((degrees + 2.5) * shapes::pi / 180));
+    // a face with circumradius r deviates by r at its corners: 4 pi / N per vertex is 3/2 sqrt 3 r^2 for equilateral ones
+    const double radius = degrees * shapes::pi / 180;
+    const double fewest = 4 * shapes::pi / (1.5 * std::sqrt(3.0) * radius * radius);
+    EXPECT_LT(double(result.points.size()), 3 * fewest);
+  }
+}
+
+TEST(Simplify_within_limits, keeps_the_distance_in_both_directions)
+{
+  for (const Soup& soup : {shapes::sphere(5, 0.3), shapes::torus(120, 44, 0.3), shapes::capped_cylinder(60, 20, 2)}) {
+    const Mesh input = shapes::mesh<Mesh>(soup);
+    const distances::Original original(input);
+    for (const double distance : {0.005, 0.02}) {
+      Mesh mesh = input;
+      SMA::simplify(mesh, no_size,
+                    params::maximum_distance(distance).surface_reconstruction(SMA::Flat_reconstruction()));
+      ASSERT_TRUE(checks::is_manifold(shapes::soup(mesh)));
+      // of the represented points it is a limit, in between and back little is missing
+      EXPECT_LT(original.distance_to(mesh, 20000).largest, 1.5 * distance);
+      EXPECT_LT(num_vertices(mesh), soup.points.size() / 3);
+    }
+  }
+}
+
+TEST(Simplify_within_limits, needs_no_vertex_but_the_corners_of_flat_faces)
+{
+  for (const Soup& soup : {shapes::square(12, 0.3), shapes::cube(6)}) {
+    Mesh mesh = shapes::mesh<Mesh>(soup);
+    SMA::simplify(mesh, no_size, params::maximum_distance(1e-9));
+    const Soup result = shapes::soup(mesh);
+    ASSERT_TRUE(checks::is_manifold(result));
+    EXPECT_LE(result.points.size(), 10u);
+    EXPECT_NEAR(checks::area(result), checks::area(soup), 1e-12);
+  }
+}
+
+TEST(Simplify_within_limits, leaves_as_much_of_a_sphere_outside_as_inside)
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(5, 0.3));
+  SMA::simplify(mesh, no_size, params::maximum_normal_deviation(10));
+  double mean = 0, mean_square = 0;
+  distances::for_each_sample(mesh, 20000, [&](const auto& p, double weight) {
+    const double height = Vector_3(p.x(), p.y(), p.z()).norm() - 1;
+    mean += weight * height;
+    mean_square += weight * height * height;
+  });
+  // with vertices on the sphere the mean is four times the deviation from it
+  EXPECT_LT(std::abs(mean), 0.6 * std::sqrt(mean_square - mean * mean));
+}
+
+TEST(Simplify_within_limits, comes_nearer_than_quadric_errors_at_the_same_number_of_vertices)
+{
+  struct Case
+  {
+    std::string name;
+    Mesh mesh;
+    double distance; ///< of the diagonal
+  };
+  for (const Case& c : {Case{"sphere", shapes::mesh<Mesh>(shapes::sphere(5, 0.3)), 1e-3},
+                        Case{"torus", shapes::mesh<Mesh>(shapes::torus(170, 60, 0.3)), 1e-3},
+                        Case{"fandisk", real_mesh<Mesh>("fandisk"), 5e-4},
+                        Case{"anchor_dense", real_mesh<Mesh>("anchor_dense"), 1e-3}}) {
+    SCOPED_TRACE(c.name);
+    const distances::Original original(c.mesh);
+    Mesh ours = c.mesh;
+    SMA::simplify(ours, no_size, params::maximum_normal_deviation(10)
+                                   .maximum_distance(c.distance * original.diagonal())
+                                   .surface_reconstruction(SMA::Flat_reconstruction()));
+    const Mesh theirs = distances::simplified<distances::Plane_quadrics>(c.mesh, num_vertices(ours));
+    const auto a = original.distance_to(ours, 50000), b = original.distance_to(theirs, 50000);
+    EXPECT_LT(a.largest, b.largest);
+    EXPECT_LT(a.rms, 0.95 * b.rms);
+  }
+}
+
+TEST(Simplify_within_limits, gives_the_same_bits_with_every_policy)
+{
+  for (const Soup& soup : {shapes::torus(120, 44, 0.3), shapes::capped_cylinder(60, 20, 2)}) {
+    Soup reference;
+    for_each_policy([&](const auto& execution, const std::string& name) {
+      Mesh mesh = shapes::mesh<Mesh>(soup);
+      SMA::simplify(execution, mesh, no_size, params::maximum_normal_deviation(15).maximum_distance(0.01));
+      const Soup result = shapes::soup(mesh);
+      if (reference.points.empty()) reference = result;
+      EXPECT_TRUE(checks::is_identical(result, reference)) << name;
+    });
+  }
+}
+
+TEST(Simplify_within_limits, keeps_constrained_vertices_where_they_are)
+{
+  const Soup soup = shapes::sphere(4, 0.3);
+  Mesh mesh = shapes::mesh<Mesh>(soup);
+  auto is_fixed = mesh.add_property_map<Mesh::Vertex_index, bool>("v:fixed", false).first;
+  for (const std::size_t v : {0, 100, 200}) is_fixed[Mesh::Vertex_index(Mesh::size_type(v))] = true;
+  SMA::simplify(mesh, no_size, params::maximum_normal_deviation(15).vertex_is_constrained_map(is_fixed));
+  const Soup result = shapes::soup(mesh);
+  for (const std::size_t v : {0, 100, 200})
+    EXPECT_EQ(std::count(result.points.begin(), result.points.end(), soup.points[v]), 1);
+}
+
+TEST(Simplify_within_limits, refuses_limits_that_make_no_sense)
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(2));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double degrees : {0.0, -1.0, 181.0, nan})
+    EXPECT_THROW(SMA::simplify(mesh, no_size, params::maximum_normal_deviation(degrees)), SMA::Invalid_parameter_error);
+  for (const double distance : {0.0, -1.0, nan})
+    EXPECT_THROW(SMA::simplify(mesh, no_size, params::maximum_distance(distance)), SMA::Invalid_parameter_error);
+}
+
+} // namespace
