@@ -107,9 +107,8 @@ private:
     Ring<std::pair<double, Mesh_view::Directed_edge>> short_edges;
     const double limit = max_length_to_collapse(s, is_seen);
     const auto consider = [&](const Mesh_view::Directed_edge& e) {
-      if (!may_slide_along(s, e.h)) return;
-      const double length = surface_.length(e.h);
-      if (length < limit) short_edges.emplace_back(length, e);
+      if (surface_.is_shorter(mesh_.source(e.h), mesh_.target(e.h), limit) && may_slide_along(s, e.h))
+        short_edges.emplace_back(surface_.length(e.h), e);
     };
     Index last = no_index;
     mesh_.for_each_outgoing(s, [&](Index h) {
