@@ -21,6 +21,7 @@ enum output_metric_map_t { output_metric_map };
 enum surface_reconstruction_t { surface_reconstruction };
 enum vertex_shape_operator_map_t { vertex_shape_operator_map };
 enum vertex_attribute_maps_t { vertex_attribute_maps };
+enum tolerance_t { tolerance };
 
 } // namespace internal_np
 
