@@ -17,6 +17,7 @@
 #include <fstream>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -117,8 +118,12 @@ Field configured(const Options& options, Field field)
 
 SMA::Curvature_metric_field curvature_field(const Options& options)
 {
-  constexpr double any_tolerance = 0.001; // with a number of vertices the tolerance follows from it
-  auto field = configured(options, SMA::Curvature_metric_field(options.curvature > 0 ? options.curvature : any_tolerance));
+  constexpr double any_tolerance = 0.001;  // with a number of vertices the tolerance follows from it
+  constexpr double largest_gap = 2.5;      // of meshes with the sizes for a tolerance, in units of that
+  const double tolerance = options.curvature > 0   ? options.curvature
+                           : options.vertices > 0  ? any_tolerance
+                                                   : options.tolerance / largest_gap;
+  auto field = configured(options, SMA::Curvature_metric_field(tolerance));
   field.anisotropic = options.anisotropic;
   if (options.curvature == 0) field.vertices = std::size_t(options.vertices);
   return field;
@@ -171,6 +176,8 @@ template <class Execution>
 SMA::Adaptation_report adapt(const Options& options, const Execution& execution, Constrained_mesh& mesh,
                              const Output_metric& output_metric, Progress& progress)
 {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const double tolerance = options.tolerance > 0 ? options.tolerance * diagonal(mesh.mesh) : none;
   const auto parameters =
     SMA::parameters::detect_features(!options.no_features)
       .feature_angle(options.feature_angle.value_or(45))
@@ -178,6 +185,7 @@ SMA::Adaptation_report adapt(const Options& options, const Execution& execution,
       .vertex_is_constrained_map(mesh.vertex_is_constrained)
       .number_of_iterations(options.rounds > 0 ? unsigned(options.rounds) : SMA::default_number_of_rounds)
       .output_metric_map(output_metric)
+      .tolerance(tolerance)
       .visitor(std::ref(progress));
   SMA::Adaptation_report report = with_metric_field(options, mesh, [&](const auto& field) {
     return blaming(options.input, [&] { return SMA::adapt_surface_mesh(execution, mesh.mesh, field, parameters); });

@@ -15,6 +15,7 @@
 #include <CGAL/Surface_mesh_adaptation/refine.h>
 #include <CGAL/Surface_mesh_adaptation/relocate.h>
 #include <CGAL/Surface_mesh_adaptation/simplify.h>
+#include <CGAL/Surface_mesh_adaptation/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/swap.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>

@@ -9,6 +9,7 @@
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
+#include <CGAL/Surface_mesh_adaptation/surface_distance.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -483,6 +484,127 @@ TEST(Adapt, follows_an_anisotropic_tensor)
   EXPECT_NEAR(double(after.points.size()), 1 / (0.866 * 0.009), 60);
 }
 
+// Tolerance
+
+/// The largest distance of points on one surface from the other, for some points on each face.
+double sampled_distance(const Soup& from, const Soup& to)
+{
+  const SMA::Triangle_tree tree(SMA::Sequential_execution(), shapes::view(to), to.points);
+  double largest = 0;
+  for (const shapes::Triangle& t : from.triangles)
+    for (int i = 0; i <= 6; ++i)
+      for (int j = 0; i + j <= 6; ++j) {
+        const Vector_3 p = (i * from.points[t[0]] + j * from.points[t[1]] + (6 - i - j) * from.points[t[2]]) / 6;
+        largest = (std::max)(largest, tree.nearest(p).squared_distance);
+      }
+  return std::sqrt(largest);
+}
+
+/// Adapts with a tolerance and expects it to be kept, certified by a bound that is neither too small nor far too large.
+template <class MetricField>
+void expect_tolerance_is_kept(const Mesh& mesh, const MetricField& field, double tolerance)
+{
+  Mesh adapted = mesh;
+  const Soup before = shapes::soup(mesh);
+  const SMA::Adaptation_report report =
+    SMA::adapt_surface_mesh(adapted, field, SMA::parameters::tolerance(tolerance));
+  const Soup after = shapes::soup(adapted);
+  EXPECT_FALSE(checks::is_identical(before, after));
+  expect_same_surface(before, adapted);
+  const double sampled = (std::max)(sampled_distance(before, after), sampled_distance(after, before));
+  EXPECT_EQ(report.tolerance, tolerance);
+  EXPECT_LE(report.certified_distance, tolerance);
+  EXPECT_GE(report.certified_distance, sampled - 1e-12);
+  EXPECT_LE(report.certified_distance, 2 * sampled + 0.02 * tolerance);
+}
+
+TEST(Tolerance, is_kept_by_meshes_that_are_sized_for_it)
+{
+  for (const char* name : {"elephant", "fandisk"})
+    for (const double relative : {0.01, 0.002}) {
+      SCOPED_TRACE(std::string(name) + " " + std::to_string(relative));
+      const Mesh mesh = real_mesh<Mesh>(name);
+      const double diagonal = SMA::internal::diagonal_of_bounding_box(shapes::soup(mesh).points);
+      for (const bool anisotropic : {false, true}) {
+        SMA::Curvature_metric_field field(relative / 2.5);
+        field.anisotropic = anisotropic;
+        expect_tolerance_is_kept(mesh, field, relative * diagonal);
+      }
+    }
+}
+
+TEST(Tolerance, is_kept_against_sizes_that_are_far_too_coarse)
+{
+  const Soup sphere = shapes::sphere(3, 0.3), torus = shapes::torus(48, 24, 0.25), cylinder = shapes::capped_cylinder(32, 8, 2);
+  for (const Soup& soup : {sphere, torus, cylinder})
+    for (const double tolerance : {0.02, 0.002})
+      expect_tolerance_is_kept(shapes::mesh<Mesh>(soup), SMA::Uniform_metric_field(0.8), tolerance);
+}
+
+TEST(Tolerance, that_cannot_be_kept_is_an_error_and_leaves_the_mesh)
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(3, 0.3));
+  const Soup before = shapes::soup(mesh);
+  const double tolerance = 1e-100; // not even rounding errors
+  try {
+    SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.1), SMA::parameters::tolerance(tolerance));
+    FAIL() << "no exception";
+  } catch (const SMA::Tolerance_error& e) {
+    EXPECT_GT(e.distance(), tolerance);
+    EXPECT_EQ(e.tolerance(), tolerance);
+  }
+  EXPECT_TRUE(checks::is_identical(shapes::soup(mesh), before));
+  EXPECT_THROW(SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.1), SMA::parameters::tolerance(0.0)),
+               SMA::Invalid_parameter_error);
+}
+
+TEST(Tolerance, changes_what_would_leave_it)
+{
+  const Soup before = shapes::torus(48, 24, 0.25);
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.3));
+  const Soup free = shapes::soup(mesh);
+  EXPECT_GT(sampled_distance(before, free), 0.02); // else the next line would say nothing
+  expect_tolerance_is_kept(shapes::mesh<Mesh>(before), SMA::Uniform_metric_field(0.3), 0.01);
+}
+
+TEST(Hausdorff_distance_bound, is_near_what_is_known)
+{
+  const SMA::Sequential_execution execution;
+  const auto bound = [&](const Soup& a, const Soup& b, double precision) {
+    return SMA::hausdorff_distance_bound(execution, SMA::Triangle_tree(execution, shapes::view(a), a.points),
+                                    SMA::Triangle_tree(execution, shapes::view(b), b.points), precision);
+  };
+  const Soup square = shapes::square(7, 0.25), finer = shapes::square(12, 0.25);
+  EXPECT_NEAR(bound(square, finer, 1e-6), 0, 1e-6); // the same surface with other triangles
+  Soup lifted = finer;
+  for (Vector_3& p : lifted.points) p[2] += 0.125;
+  EXPECT_NEAR(bound(square, lifted, 1e-6), 0.125, 1e-6);
+  for (Vector_3& p : lifted.points) p[2] = 0.3 * p[0]; // tilted: the farthest point is at the far side
+  const double tilted = bound(square, lifted, 1e-6);
+  EXPECT_GE(tilted, 0.3 - 1e-12);
+  EXPECT_LE(tilted, 0.3 + 1e-6);
+  Soup spike = finer; // a point of one surface that is far from the other, but not the other way round
+  for (Vector_3& p : spike.points)
+    if ((p - Vector_3(0.5, 0.5, 0)).norm() < 0.05) p[2] = 0.5;
+  EXPECT_NEAR(bound(square, spike, 1e-6), 0.5, 1e-6);
+}
+
+TEST(Triangle_tree, finds_the_nearest_triangle_of_brute_force)
+{
+  shapes::Random random(31);
+  const Soup soup = shapes::torus(20, 10, 0.3);
+  const SMA::Triangle_tree tree(SMA::Sequential_execution(), shapes::view(soup), soup.points);
+  ASSERT_EQ(tree.size(), soup.triangles.size());
+  for (int i = 0; i < 500; ++i) {
+    const Vector_3 p = 1.5 * random.vector();
+    double least = 1e300;
+    for (std::size_t t = 0; t < tree.size(); ++t) least = (std::min)(least, SMA::squared_distance_to_triangle(p, tree[t]));
+    EXPECT_EQ(tree.nearest(p).squared_distance, least);
+    EXPECT_EQ(tree.nearest(p, random.below(tree.size())).squared_distance, least);
+  }
+}
+
 // The same for all
 
 struct Outcome
@@ -539,6 +661,21 @@ TEST(Adapt, gives_the_same_bits_with_every_policy_for_an_anisotropic_tensor)
     return Metric_tensor_3(SMA::Matrix_3(2500 * SMA::Matrix_3::Identity() - 2500 * 8.0 / 9 * t * t.transpose()));
   };
   expect_same_for_all_policies(shapes::mesh<Mesh>(shapes::torus(48, 24, 0.25)), SMA::Analytic_metric_field(tensor));
+}
+
+TEST(Adapt, gives_the_same_bits_with_every_policy_within_a_tolerance)
+{
+  const Mesh mesh = real_mesh<Mesh>("elephant");
+  Outcome first;
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    SCOPED_TRACE(name);
+    Mesh adapted = mesh;
+    SMA::adapt_surface_mesh(execution, adapted, SMA::Curvature_metric_field(0.0008), SMA::parameters::tolerance(0.003));
+    const Soup soup = shapes::soup(adapted);
+    if (first.soup.points.empty()) first.soup = soup;
+    EXPECT_TRUE(checks::is_identical(soup, first.soup));
+  });
+  EXPECT_GT(first.soup.points.size(), 4096u) << "too small: everything fits into one task";
 }
 
 TEST(Adapt, gives_the_same_bits_when_it_is_done_again)

@@ -296,9 +296,19 @@ TEST_F(Adapt_mesh, refuses_numbers_out_of_range)
   expect_failure(2, "in.off out.off --size 0.1 --rounds 2.5", "rounds");
 }
 
-TEST_F(Adapt_mesh, says_what_is_not_available_yet)
+TEST_F(Adapt_mesh, keeps_a_tolerance_and_says_so)
 {
-  expect_failure(2, "in.off out.off --size 0.1 --tolerance 0.1", "not available yet");
+  for (const std::string options : {"--tolerance 0.002", "--tolerance 0.002 --size 0.5", "--tolerance 0.01 --anisotropic"}) {
+    SCOPED_TRACE(options);
+    const Outcome r = run("in.off out.off --report report.json " + options);
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_NE(r.out.find("certified"), std::string::npos);
+    EXPECT_NE(content(path("report.json")).find("certified_distance"), std::string::npos);
+  }
+  // no rounding error allowed
+  expect_failure(1, "in.off out.off --size 0.1 --tolerance 1e-100 --quiet", "above the tolerance");
+  expect_failure(2, "in.off out.off --tolerance 0", "--tolerance");
+  expect_failure(2, "in.off out.off --tolerance -1", "--tolerance");
 }
 
 TEST_F(Adapt_mesh, aims_at_a_number_of_vertices)

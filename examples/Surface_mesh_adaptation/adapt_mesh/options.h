@@ -34,6 +34,7 @@ struct Options
   bool anisotropic = false;
   int vertices = 0;
   std::optional<double> gradation;
+  double tolerance = 0;
   double hmin = 0;
   double hmax = 0;
   std::optional<double> feature_angle; ///< in degrees
@@ -80,8 +81,9 @@ inline po::options_description described_options(Options& o)
     ("feature-angle", po::value<double>()->value_name("DEG")->notifier([&](double a) { o.feature_angle = a; }),
      "edges whose faces meet at a larger angle are kept sharp (default: 45)")
     ("no-features", po::bool_switch(&o.no_features), "do not look for sharp edges")
-    ("tolerance", po::value<std::string>()->value_name("EPS"),
-     "bound on the distance between input and output (not available yet)")
+    ("tolerance", po::value(&o.tolerance)->value_name("EPS"),
+     "keep the Hausdorff distance between input and output below EPS times the diagonal of the bounding box, and certify "
+     "it; if nothing else says how fine the mesh is to be, the curvature does such that this is likely")
     ("rounds", po::value(&o.rounds)->value_name("N"), "number of rounds of the kernels")
     ("threads", po::value(&o.threads)->value_name("N"), "number of threads (default: all)")
     ("execution", po::value(&o.execution)->value_name("WHICH"),
@@ -105,6 +107,7 @@ inline void check_positive(const po::variables_map& given, const Options& o)
   };
   check("size", o.size);
   check("curvature", o.curvature);
+  check("tolerance", o.tolerance);
   check("hmin", o.hmin);
   check("hmax", o.hmax);
   check("rounds", o.rounds);
@@ -117,24 +120,20 @@ inline void check_positive(const po::variables_map& given, const Options& o)
     throw Usage_error("--feature-angle must be an angle in degrees, above 0 and up to 180");
 }
 
-inline void check_available(const po::variables_map& given)
-{
-  if (given.count("tolerance") != 0) throw Usage_error("--tolerance is not available yet");
-}
-
 inline void check_consistent(const Options& o)
 {
   if (o.input.empty() || o.output.empty()) throw Usage_error("INPUT and OUTPUT are required");
   const bool has_field = !o.field.empty(), has_metric = !o.metric.empty(), has_curvature = o.curvature > 0;
   if (int(o.size > 0) + int(has_metric) + int(has_field || has_curvature) > 1)
     throw Usage_error("only --field and --curvature go together: else give one of --size, --curvature, --metric, --field");
-  if (!(o.size > 0) && !has_metric && !has_field && !has_curvature && o.vertices == 0)
-    throw Usage_error("one of --size, --curvature, --metric, --field and --vertices is required");
+  if (!(o.size > 0) && !has_metric && !has_field && !has_curvature && o.vertices == 0 && !(o.tolerance > 0))
+    throw Usage_error("one of --size, --curvature, --metric, --field, --vertices and --tolerance is required");
   if (has_field && o.vertices == 0) throw Usage_error("--field needs --vertices");
   if (has_curvature && !has_field && o.vertices > 0)
     throw Usage_error("--vertices contradicts --curvature: both say how fine the mesh is to be");
   if (o.norm && !has_field) throw Usage_error("--norm needs --field");
-  if (o.anisotropic && (o.size > 0 || has_metric)) throw Usage_error("--anisotropic needs --curvature, --field or --vertices");
+  if (o.anisotropic && (o.size > 0 || has_metric))
+    throw Usage_error("--anisotropic needs --curvature, --field, --vertices or --tolerance");
   if (o.size > 0 && (o.hmin > 0 || o.hmax > 0)) throw Usage_error("--hmin and --hmax contradict --size");
   if (o.size > 0 && (o.vertices > 0 || o.gradation)) throw Usage_error("--vertices and --gradation contradict --size");
   if (o.hmin > 0 && o.hmax > 0 && o.hmin > o.hmax) throw Usage_error("--hmin is larger than --hmax");
@@ -151,8 +150,8 @@ inline void print_help(std::ostream& out)
   out
     << "Usage: adapt_mesh INPUT OUTPUT [options]\n\n"
        "Adapts the triangulated surface in INPUT to a metric and writes it to OUTPUT. The formats follow from the\n"
-       "extensions: off, obj, ply, stl, mesh (MEDIT). One of --size, --curvature, --metric, --field and --vertices is\n"
-       "required.\n\n"
+       "extensions: off, obj, ply, stl, mesh (MEDIT). One of --size, --curvature, --metric, --field, --vertices and\n"
+       "--tolerance is required.\n\n"
     << internal::described_options(options) << "\nExit status: 0 done, 1 failed, 2 wrong usage, 3 unusable input.\n";
 }
 
@@ -176,7 +175,6 @@ inline Options parse_options(int argc, char* argv[])
     throw Usage_error(e.what());
   }
   if (options.help || options.version) return options;
-  internal::check_available(given);
   internal::check_positive(given, options);
   internal::check_consistent(options);
   return options;

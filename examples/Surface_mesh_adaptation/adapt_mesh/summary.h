@@ -46,6 +46,9 @@ inline void print_summary(const SMA::Adaptation_report& report, const Mesh& inpu
   std::printf("quality   %.3f -> %.3f mean, %.3f -> %.3f worst; smallest angle %.1f degrees\n", before.mean_quality,
               after.mean_quality, before.min_quality, after.min_quality, after.min_angle);
   std::printf("distance  %.3g, %.3g of the diagonal (sampled)\n", distance, distance / diagonal(input));
+  if (report.tolerance > 0)
+    std::printf("certified %.3g, %.3g of the tolerance\n", report.certified_distance,
+                report.certified_distance / report.tolerance);
   std::printf("time      %.3g s, %s, %d thread%s\n", report.seconds, report.execution.c_str(), report.threads,
               report.threads == 1 ? "" : "s");
 }

@@ -53,6 +53,9 @@ struct Adaptation_report
   std::size_t fallback_patches = 0; ///< faces of the input over which the surface is less smooth than elsewhere
   std::vector<Kernel_report> kernels;
   std::vector<Mesh_statistics> after_round;
+  double tolerance = 0;            ///< largest distance allowed between input and output; 0: none was asked for
+  double certified_distance = 0;   ///< if one was: an upper bound of their Hausdorff distance, by 2 % of it too large
+                                   ///< at most
   double seconds = 0;
 
   /// Writes the report as one JSON object.
@@ -104,6 +107,8 @@ inline void Adaptation_report::write_json(std::ostream& out) const
   internal::write_json(out, initial);
   out << ",\n  \"final\": ";
   internal::write_json(out, final);
+  if (tolerance > 0)
+    out << ",\n  \"tolerance\": " << tolerance << ", \"certified_distance\": " << certified_distance;
   out << ",\n  \"after_round\": ";
   internal::write_json_list(out, after_round, [&](const Mesh_statistics& s) {
     out << "\n    ";

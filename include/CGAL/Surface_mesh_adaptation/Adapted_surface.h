@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/Reference_surface.h>
 #include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/metric.h>
+#include <CGAL/Surface_mesh_adaptation/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>
@@ -35,6 +36,14 @@ struct Placed_vertex
   Metric metric;
 };
 
+/// How far the adapted mesh may be from the input, and the faces of that.
+struct Tolerance
+{
+  double distance;      ///< that is asked for
+  double of_operations; ///< that each operation keeps: less, for operations add up
+  Triangle_tree input;
+};
+
 template <class Metric_, class Reconstruction_>
 class Adapted_surface
 {
@@ -52,9 +61,11 @@ public:
   Buffer<Index> origin;         ///< vertex of the input that a vertex was, or `no_index`
   Buffer<std::uint8_t> active;  ///< a bit for each kernel that has to look at the vertex
 
+  /// `tolerance` may be null, and must live as long as the surface.
   template <class Execution>
-  Adapted_surface(const Execution& execution, const Reference& reference, const Background& background)
-    : mesh(reference.mesh), reference_(&reference), background_(&background)
+  Adapted_surface(const Execution& execution, const Reference& reference, const Background& background,
+                  const Tolerance* tolerance = nullptr)
+    : mesh(reference.mesh), reference_(&reference), background_(&background), tolerance_(tolerance)
   {
     const std::size_t n = mesh.number_of_vertices();
     resize_vertices(n);
@@ -199,6 +210,41 @@ public:
     return place(best.location, best.point);
   }
 
+  bool has_tolerance() const { return tolerance_ != nullptr; }
+
+  /// A corner of a face that may come to be.
+  struct Corner
+  {
+    const Location& location;
+    const Vector_3& point;
+  };
+
+  Corner corner(Index v) const { return {locations[v], points[v]}; }
+
+  /// Whether a face with these corners stays within the tolerance of the input. \pre `has_tolerance()`
+  bool keeps_tolerance(const Corner& a, const Corner& b, const Corner& c) const
+  {
+    Ring<std::size_t> guesses;
+    for (const Corner* corner : {&a, &b, &c}) {
+      const Location& l = corner->location;
+      const auto of_vertex = [&] { return reference_->mesh.outgoing[reference_->interpolation(l).vertices[0]]; };
+      guesses.push_back(tolerance_->input.place(l.kind == Vertex_class::smooth ? l.cell : Mesh_view::face(of_vertex())));
+    }
+    return is_within(tolerance_->input, {a.point, b.point, c.point}, tolerance_->of_operations, guesses);
+  }
+
+  /// Whether faces are not too far from a point of the surface as it was for the input to stay within the tolerance of
+  /// the surface as it will be. Conservative for a point of the input; what earlier operations left behind is not
+  /// looked at, which is why the distance is measured in the end. \pre `has_tolerance()`
+  template <class Faces>
+  bool is_near(const Faces& faces, const Vector_3& p) const
+  {
+    const double limit = share_of_point * tolerance_->of_operations;
+    for (const Triangle_points& face : faces)
+      if (squared_distance_to_triangle(p, face) <= limit * limit) return true;
+    return false;
+  }
+
   /// Multiplies the metric by `factor`: the vertices it asks for, but for boundaries, too.
   template <class Execution>
   void scale_metric(const Execution& execution, double factor)
@@ -249,7 +295,16 @@ private:
   Placed_vertex<Metric> place(const Location& l, const Surface_point& p) const
   {
     const Metric metric = background_->at(*reference_, l, p);
-    return {l, p.position, p.normal, scale_ == 1 ? metric : scaled(metric, scale_)};
+    const Vector_3 point = tolerance_ ? near_input(l, p.position) : p.position;
+    return {l, point, p.normal, scale_ == 1 ? metric : scaled(metric, scale_)};
+  }
+
+  /// `p` drawn towards the point of the input that it lies above, where the patch bulges by much of the tolerance.
+  Vector_3 near_input(const Location& l, const Vector_3& p) const
+  {
+    const Vector_3 flat = reference_->flat_point(l), bulge = p - flat;
+    const double length = bulge.norm(), largest = share_of_bulge * tolerance_->of_operations;
+    return length > largest ? Vector_3(flat + largest / length * bulge) : p;
   }
 
   static constexpr double max_skew = 0.1;         // of a parallelogram, in lengths of the diagonal
@@ -258,8 +313,12 @@ private:
   static constexpr double split_precision = 0.02; // of the edge: later moves undo the rest
   static constexpr double split_distance = 0.2;   // of the edge: more means that the walk did not get there
 
+  static constexpr double share_of_bulge = 0.25;  // of the tolerance: the rest is for the faces between the points
+  static constexpr double share_of_point = 0.5;   // the same: operations add up
+
   const Reference* reference_;
   const Background* background_;
+  const Tolerance* tolerance_;
   double scale_ = 1; ///< of the metric
 };
 

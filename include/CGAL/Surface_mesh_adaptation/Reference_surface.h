@@ -108,6 +108,14 @@ public:
     }
   }
 
+  /// The point of the input mesh itself, without its patches, at `l`.
+  Vector_3 flat_point(const Location& l) const
+  {
+    const Interpolation i = interpolation(l);
+    return i.weights[0] * points[i.vertices[0]] + i.weights[1] * points[i.vertices[1]] +
+           i.weights[2] * points[i.vertices[2]];
+  }
+
   /// The faces of the input over which a patch was asked for so far and is of lower order.
   template <class Execution>
   std::size_t number_of_fallbacks(const Execution& execution) const
@@ -182,7 +190,7 @@ public:
     double best_distance = -1;
     for_each_incident_face(l, [&](Index f) {
       const Location candidate = closest_location_in_face(f, target);
-      const double distance = (point_in_face(candidate) - target).squaredNorm();
+      const double distance = (flat_point(candidate) - target).squaredNorm();
       if (best_distance < 0 || distance < best_distance) {
         best_distance = distance;
         best = candidate;
@@ -335,13 +343,6 @@ private:
       if (i > 0 && where.vertices[i] == where.vertices[i - 1]) continue;
       mesh.for_each_outgoing(where.vertices[i], [&](Index h) { f(Mesh_view::face(h)); });
     }
-  }
-
-  Vector_3 point_in_face(const Location& l) const
-  {
-    const Interpolation i = interpolation(l);
-    return i.weights[0] * points[i.vertices[0]] + i.weights[1] * points[i.vertices[1]] +
-           i.weights[2] * points[i.vertices[2]];
   }
 
   /// Projection onto the plane of `f` with negative barycentric coordinates cut off: exact inside, and good enough

@@ -107,6 +107,12 @@ step at the end: if anything throws, it is as it was.
     \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the vertex descriptor as key}
     \cgalParamDefault{none}
   \cgalParamNEnd
+  \cgalParamNBegin{tolerance}
+    \cgalParamDescription{the largest Hausdorff distance between the mesh as it is and as it will be: operations that
+                          leave it are refused, and the distance is bounded in the end, see `surface_distance.h`}
+    \cgalParamType{`double`, a length}
+    \cgalParamDefault{infinity, that is none}
+  \cgalParamNEnd
   \cgalParamNBegin{visitor}
     \cgalParamDescription{follows the run and may stop it}
     \cgalParamType{a model of `AdaptationVisitor`, or a `std::reference_wrapper` of one}
@@ -114,7 +120,8 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
-\throws an exception derived from `Adaptation_error`, before the mesh is changed
+\throws an exception derived from `Adaptation_error`, before the mesh is changed; `Tolerance_error` if the tolerance could
+        not be kept
 \complexity O(n log n) time, O(n) memory, for n the larger of the numbers of input and output vertices
 */
 template <class Execution, class TriangleMesh, class MetricField,

@@ -6,6 +6,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_EXCEPTIONS_H
 
 #include <cstddef>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -124,9 +125,23 @@ class Tolerance_error : public Adaptation_error
 {
 public:
   Tolerance_error(double distance, double tolerance)
-    : Adaptation_error("the output is at a distance of " + std::to_string(distance) +
-                       " from the input, above the tolerance of " + std::to_string(tolerance))
+    : Adaptation_error("the adapted mesh may be as far as " + number(distance) +
+                       " from the input, above the tolerance of " + number(tolerance))
+    , distance_(distance), tolerance_(tolerance)
   {}
+
+  double distance() const { return distance_; }   ///< the upper bound that was found
+  double tolerance() const { return tolerance_; }
+
+private:
+  static std::string number(double x)
+  {
+    std::ostringstream out;
+    out << x;
+    return out.str();
+  }
+
+  double distance_, tolerance_;
 };
 
 /// A file that cannot be read or written; `line()` is the offending line, from 1, or 0 if there is none.

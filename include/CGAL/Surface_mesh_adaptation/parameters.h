@@ -23,6 +23,7 @@ enum vertex_shape_operator_map_t { vertex_shape_operator_map };
 enum vertex_attribute_maps_t { vertex_attribute_maps };
 enum maximum_normal_deviation_t { maximum_normal_deviation };
 enum maximum_distance_t { maximum_distance };
+enum tolerance_t { tolerance };
 
 } // namespace internal_np
 

@@ -19,6 +19,8 @@
 #include <algorithm>
 #include <functional>
 #include <iterator>
+#include <limits>
+#include <optional>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -170,6 +172,45 @@ Attribute_transfer<FaceGraph, Maps...> attribute_transfer(const FaceGraph&, cons
   return {imported, maps};
 }
 
+constexpr double share_of_operations = 0.8; // of the tolerance, at first
+
+/// The tolerance that the parameters ask for, if any.
+/// \throws Invalid_parameter_error
+template <class Reference, class NamedParameters>
+std::optional<Tolerance> tolerance_of(const Any_execution& execution, const Reference& reference, const NamedParameters& np)
+{
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const double distance = choose(np, internal_np::tolerance, none);
+  if (!(distance > 0)) throw Invalid_parameter_error("the tolerance must be positive");
+  if (distance == none) return std::nullopt;
+  return Tolerance{distance, share_of_operations * distance, Triangle_tree(execution, reference.mesh, reference.points)};
+}
+
+/// An upper bound of the distance between the input and the adapted mesh.
+template <class Surface>
+double certified_distance(const Any_execution& execution, const Tolerance& tolerance, const Surface& surface)
+{
+  constexpr double precision = 0.02; // of the tolerance
+  const Triangle_tree output(execution, surface.mesh, surface.points);
+  return hausdorff_distance_bound(execution, tolerance.input, output, precision * tolerance.distance);
+}
+
+/// Calls `adapt()`, which returns a report with a certified distance, with ever stricter operations until that distance is
+/// within the tolerance.
+/// \throws Tolerance_error
+template <class Adapt>
+Adaptation_report adapt_within(Tolerance& tolerance, const Adapt& adapt)
+{
+  constexpr int max_attempts = 4;
+  constexpr double safety = 0.9;
+  for (int attempt = 1;; ++attempt) {
+    const Adaptation_report report = adapt();
+    if (report.certified_distance <= tolerance.distance) return report;
+    if (attempt == max_attempts || report.stopped) throw Tolerance_error(report.certified_distance, tolerance.distance);
+    tolerance.of_operations *= safety * tolerance.distance / report.certified_distance;
+  }
+}
+
 /// Runs `kernels(execution, surface)`, which returns a report, on `graph`.
 template <class FaceGraph, class MetricField, class NamedParameters, class Kernels>
 Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& graph, const MetricField& field,
@@ -185,11 +226,24 @@ Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& grap
   with_input_numbers(graph, imported, [&] { given = given_jets(imported, np); });
   const Reference_surface<Reconstruction> reference(execution, imported.mesh, imported.points, features, std::move(given));
 
+  std::optional<Tolerance> tolerance = tolerance_of(execution, reference, np);
+
   Adaptation_report report;
   const auto adapt = [&](const auto& background) {
     using Metric = std::decay_t<decltype(background.at(reference, Location(), Surface_point()))>;
-    Adapted_surface<Metric, Reconstruction> surface(execution, reference, background);
-    report = kernels(execution, surface);
+    using Surface = Adapted_surface<Metric, Reconstruction>;
+    const Tolerance* const asked = tolerance ? &*tolerance : nullptr;
+    std::optional<Surface> adapted;
+    const auto run = [&] {
+      adapted.emplace(execution, reference, background, asked);
+      Adaptation_report result = kernels(execution, *adapted);
+      if (!asked) return result;
+      result.tolerance = asked->distance;
+      result.certified_distance = certified_distance(execution, *asked, *adapted);
+      return result;
+    };
+    report = asked ? adapt_within(*tolerance, run) : run();
+    Surface& surface = *adapted;
     auto attributes = attribute_transfer(graph, imported, choose(np, internal_np::vertex_attribute_maps, std::tuple<>()));
     write_connectivity(execution, surface.mesh, graph);
     write_points(execution, surface.points, graph, points);

@@ -265,8 +265,18 @@ private:
         const Vector_3& n = normals_[plan.vertex_of_label(f, label)];
         if (n != Vector_3::Zero() && normal.dot(n) < limit * length) return false;
       }
+      if (surface_.has_tolerance() && !child_keeps_tolerance(plan, f, pattern.child[i])) return false;
     }
     return true;
+  }
+
+  bool child_keeps_tolerance(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels) const
+  {
+    const auto corner = [&](std::size_t i) {
+      const Index v = plan.vertex_of_label(f, labels[i]);
+      return typename Surface::Corner{locations_[v], points_[v]};
+    };
+    return surface_.keeps_tolerance(corner(0), corner(1), corner(2));
   }
 
   double worst_child(const Restructuring& plan, Index f, std::uint8_t code) const

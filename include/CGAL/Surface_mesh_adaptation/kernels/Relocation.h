@@ -153,6 +153,25 @@ private:
     return moved;
   }
 
+  /// Moves `v`, unless that leaves the tolerance.
+  bool apply(Index v, const Star& star, const Placed_vertex<Metric>& moved)
+  {
+    if (surface_.has_tolerance() && !keeps_tolerance(v, star, moved)) return false;
+    surface_.set(v, moved);
+    activate_around(v, star, moved);
+    return true;
+  }
+
+  bool keeps_tolerance(Index v, const Star& star, const Placed_vertex<Metric>& moved) const
+  {
+    Ring<Triangle_points> faces;
+    return star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
+      faces.push_back({moved.point, a.point, b.point});
+      return surface_.keeps_tolerance({moved.location, moved.point}, surface_.corner(a.vertex),
+                                      surface_.corner(b.vertex));
+    }) && surface_.is_near(faces, surface_.points[v]);
+  }
+
   /// The neighbours may move now; the other kernels look again only where the move left something for them.
   CGAL_SMA_FLATTEN void activate_around(Index v, const Star& star, const Placed_vertex<Metric>& moved)
   {
@@ -281,10 +300,7 @@ private:
     if (!(surface_.metrics[v].length(t) > min_move_)) return false;
     for (const double scale : {relaxation_, relaxation_ / 2, relaxation_ / 4}) {
       const auto moved = surface_.place(surface_.reference().trace(surface_.locations[v], scale * t, true));
-      if (!is_acceptable(v, star, moved, attempt)) continue;
-      surface_.set(v, moved);
-      activate_around(v, star, moved);
-      return true;
+      if (is_acceptable(v, star, moved, attempt) && apply(v, star, moved)) return true;
     }
     return false;
   }
@@ -372,10 +388,8 @@ private:
         return is_allowed ? 1 / s.worst : std::numeric_limits<double>::infinity();
       });
     const Shape after = shape(star, best);
-    if (!(after.worst > least_gain * before.worst) || !is_upright(v, before, after, best, attempt)) return false;
-    surface_.set(v, best);
-    activate_around(v, star, best);
-    return true;
+    return after.worst > least_gain * before.worst && is_upright(v, before, after, best, attempt) &&
+           apply(v, star, best);
   }
 
   /// Moves a curve vertex to where its two curve edges have the same metric length.
@@ -402,10 +416,7 @@ private:
     for (const double scale : {1.0, 0.5}) {
       const auto moved = surface_.place(surface_.reference().on_curve(curve, arc0.first + scale * d));
       const Shape after = shape(star, moved);
-      if (after.worst < limit || !is_upright(v, before, after, moved, attempt)) continue;
-      surface_.set(v, moved);
-      activate_around(v, star, moved);
-      return true;
+      if (after.worst >= limit && is_upright(v, before, after, moved, attempt) && apply(v, star, moved)) return true;
     }
     return false;
   }

@@ -233,13 +233,31 @@ private:
                  (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit);
       return is_valid;
     });
-    if (!is_valid || is_flat) return is_valid;
-    mesh_.for_each_outgoing(s, [&](Index h) {
-      const Index behind = mesh_.twin[Mesh_view::next(h)];
-      if (behind != no_index && !is_seen(mesh_.apex(behind))) is_put_off = true;
+    if (!is_valid) return false;
+    if (!is_flat) {
+      mesh_.for_each_outgoing(s, [&](Index h) {
+        const Index behind = mesh_.twin[Mesh_view::next(h)];
+        if (behind != no_index && !is_seen(mesh_.apex(behind))) is_put_off = true;
+      });
+      if (is_put_off || surface_.sharpest_fold(s, surface_.points[d]) <
+                          (std::min)(min_fold, surface_.sharpest_fold(s, surface_.points[s])))
+        return false;
+    }
+    return !surface_.has_tolerance() || keeps_tolerance(s, d);
+  }
+
+  bool keeps_tolerance(Index s, Index d) const
+  {
+    Ring<Triangle_points> faces;
+    bool is_kept = true;
+    mesh_.for_each_outgoing_while(s, [&](Index h) {
+      const Index x = mesh_.target(h), y = mesh_.apex(h);
+      if (x == d || y == d) return true;
+      faces.push_back({surface_.points[d], surface_.points[x], surface_.points[y]});
+      is_kept = surface_.keeps_tolerance(surface_.corner(d), surface_.corner(x), surface_.corner(y));
+      return is_kept;
     });
-    return !is_put_off && surface_.sharpest_fold(s, surface_.points[d]) >=
-                            (std::min)(min_fold, surface_.sharpest_fold(s, surface_.points[s]));
+    return is_kept && surface_.is_near(faces, surface_.points[s]);
   }
 
   /// Whether the curve through `s` may skip it towards `d`: it must not turn too much there, the new edge must not be

@@ -199,6 +199,7 @@ private:
     if (surface_.alignment(new1, a, b, p) < limit || surface_.alignment(new2, b, a, q) < limit) return false;
     const double turn = (std::min)(min_turn, old1.dot(old2));
     if ((std::min)({new1.dot(old1), new1.dot(old2), new2.dot(old1), new2.dot(old2), new1.dot(new2)}) < turn) return false;
+    if (surface_.has_tolerance() && !keeps_tolerance(p, q, a, b)) return false;
     if (surface_.is_flat(new1, a, b, p) && surface_.is_flat(new2, b, a, q)) return true;
     // faces (p, q, b) and (q, p, a) with the outer edges hn hp and tn tp become (a, b, p) and (b, a, q) with hp tn and tp hn
     const Index hn = Mesh_view::next(h), hp = Mesh_view::previous(h), tn = Mesh_view::next(t), tp = Mesh_view::previous(t);
@@ -206,6 +207,16 @@ private:
                                     fold_across(tp, new2)});
     return fold >= (std::min)({min_fold, fold_across(hn, old1), fold_across(hp, old1), fold_across(tn, old2),
                                fold_across(tp, old2)});
+  }
+
+  bool keeps_tolerance(Index p, Index q, Index a, Index b) const
+  {
+    const auto& points = surface_.points;
+    const std::array<Triangle_points, 2> faces{{{points[a], points[b], points[p]}, {points[b], points[a], points[q]}}};
+    const auto is_kept = [&](Index v) {
+      return surface_.keeps_tolerance(surface_.corner(a), surface_.corner(b), surface_.corner(v));
+    };
+    return surface_.is_near(faces, 0.5 * (points[p] + points[q])) && is_kept(p) && is_kept(q);
   }
 
   /// Cosine between a face with normal `n` on the side of `h` and the face behind `h`; 1 across features.

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Distances between triangulated surfaces that are bounds, not samples.
+//
+// The distance to one triangle is a convex function, so that on another triangle it is largest at a corner. Hence the
+// distance from a triangle to a surface is at most that of its farthest corner to any one triangle of the surface; for
+// the one nearest to the centre that is a good bound once the triangle is small or lies above it, and it is cut until then
+// (after M. Tang, M. Lee, Y. J. Kim, *Interactive Hausdorff distance computation for general polygonal models*, 2009).
+// All bounds hold up to rounding.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_DISTANCE_H
+#define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_DISTANCE_H
+
+#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/locality.h>
+
+#include <boost/container/static_vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+using Triangle_points = std::array<Vector_3, 3>;
+
+/// Squared distance from `p` to the segment from `a` to `b`.
+inline double squared_distance_to_segment(const Vector_3& p, const Vector_3& a, const Vector_3& b)
+{
+  const Vector_3 e = b - a;
+  const double squared_length = e.squaredNorm();
+  const double t = squared_length > 0 ? std::clamp((p - a).dot(e) / squared_length, 0.0, 1.0) : 0;
+  return (p - a - t * e).squaredNorm();
+}
+
+/// Squared distance from `p` to a triangle, which may be degenerate.
+inline double squared_distance_to_triangle(const Vector_3& p, const Triangle_points& t)
+{
+  const Vector_3 n = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double squared_area = n.squaredNorm();
+  bool is_above = squared_area > 0;
+  for (std::size_t i = 0; i < 3 && is_above; ++i) {
+    const Vector_3 &a = t[i], &b = t[(i + 1) % 3];
+    is_above = n.dot((b - a).cross(p - a)) >= 0;
+  }
+  if (is_above) {
+    const double height = n.dot(p - t[0]);
+    return height * height / squared_area;
+  }
+  return (std::min)({squared_distance_to_segment(p, t[0], t[1]), squared_distance_to_segment(p, t[1], t[2]),
+                     squared_distance_to_segment(p, t[2], t[0])});
+}
+
+/// The triangles of a surface in a tree of bounding boxes: four in order along a Hilbert curve in a leaf, and half as
+/// many boxes in each level as in the one below. May be asked concurrently.
+class Triangle_tree
+{
+public:
+  /// \pre `mesh` has a face that was not removed
+  template <class Execution, class Points>
+  Triangle_tree(const Execution& execution, const Mesh_view& mesh, const Points& points)
+  {
+    const std::vector<Index> faces = pack(execution, mesh.number_of_faces(), [&](std::size_t f) {
+      return !mesh.is_removed_face(Index(f));
+    });
+    std::vector<Triangle_points> unsorted(faces.size());
+    std::vector<Vector_3> centers(faces.size());
+    for_each_index(execution, faces.size(), [&](std::size_t i) {
+      for (std::size_t k = 0; k < 3; ++k) unsorted[i][k] = points[mesh.corner[3 * std::size_t(faces[i]) + k]];
+      centers[i] = (unsorted[i][0] + unsorted[i][1] + unsorted[i][2]) / 3;
+    });
+    const std::vector<Index> order = internal::hilbert_order(execution, centers);
+    triangles_.resize(order.size());
+    place_.resize(mesh.number_of_faces());
+    for_each_index(execution, order.size(), [&](std::size_t i) {
+      triangles_[i] = unsorted[order[i]];
+      place_[faces[order[i]]] = i;
+    });
+    build(execution);
+  }
+
+  /// The place in the tree of a face of the mesh.
+  std::size_t place(Index face) const { return place_[face]; }
+
+  std::size_t size() const { return triangles_.size(); }
+  const Triangle_points& operator[](std::size_t i) const { return triangles_[i]; }
+
+  /// The diagonal of the bounding box.
+  double extent() const { return (levels_.back()[0].high - levels_.back()[0].low).norm(); }
+
+  struct Nearest
+  {
+    double squared_distance = std::numeric_limits<double>::infinity();
+    std::size_t triangle = 0;  ///< its place in the tree
+  };
+
+  /// The triangle next to `p`; a guess for it saves time. Near O(log n).
+  Nearest nearest(const Vector_3& p, std::size_t guess = 0) const
+  {
+    Nearest best{squared_distance_to_triangle(p, triangles_[guess]), guess};
+    boost::container::static_vector<Entry, 64> stack;
+    stack.push_back({levels_.size() - 1, 0, 0});
+    while (!stack.empty()) {
+      const Entry e = stack.back();
+      stack.pop_back();
+      if (e.squared_distance >= best.squared_distance) continue;
+      if (e.level == 0) visit_leaf(e.index, p, best);
+      else push_children(e, p, stack);
+    }
+    return best;
+  }
+
+private:
+  struct Box
+  {
+    Vector_3 low, high;
+
+    double squared_distance(const Vector_3& p) const
+    {
+      return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
+    }
+  };
+
+  struct Entry
+  {
+    std::size_t level, index;
+    double squared_distance;
+  };
+
+  static constexpr std::size_t leaf_size = 4;
+
+  template <class Execution>
+  void build(const Execution& execution)
+  {
+    levels_.emplace_back((size() + leaf_size - 1) / leaf_size);
+    for_each_index(execution, levels_[0].size(), [&](std::size_t i) {
+      Box box{triangles_[leaf_size * i][0], triangles_[leaf_size * i][0]};
+      for (std::size_t j = leaf_size * i; j < (std::min)(leaf_size * (i + 1), size()); ++j)
+        for (const Vector_3& p : triangles_[j]) box = {box.low.cwiseMin(p), box.high.cwiseMax(p)};
+      levels_[0][i] = box;
+    });
+    while (levels_.back().size() > 1) {
+      const std::vector<Box>& below = levels_.back();
+      std::vector<Box> level((below.size() + 1) / 2);
+      for_each_index(execution, level.size(), [&](std::size_t i) {
+        const Box &a = below[2 * i], &b = below[(std::min)(2 * i + 1, below.size() - 1)];
+        level[i] = {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
+      });
+      levels_.push_back(std::move(level));
+    }
+  }
+
+  void visit_leaf(std::size_t leaf, const Vector_3& p, Nearest& best) const
+  {
+    for (std::size_t i = leaf_size * leaf; i < (std::min)(leaf_size * (leaf + 1), size()); ++i) {
+      const double d = squared_distance_to_triangle(p, triangles_[i]);
+      if (d < best.squared_distance) best = {d, i};
+    }
+  }
+
+  /// The nearer child last, so that it is next.
+  template <class Stack>
+  void push_children(const Entry& e, const Vector_3& p, Stack& stack) const
+  {
+    const std::vector<Box>& below = levels_[e.level - 1];
+    Entry first{e.level - 1, 2 * e.index, below[2 * e.index].squared_distance(p)};
+    if (2 * e.index + 1 < below.size()) {
+      Entry second{e.level - 1, 2 * e.index + 1, below[2 * e.index + 1].squared_distance(p)};
+      if (second.squared_distance < first.squared_distance) std::swap(first, second);
+      stack.push_back(second);
+    }
+    stack.push_back(first);
+  }
+
+  std::vector<Triangle_points> triangles_;
+  std::vector<std::size_t> place_;        ///< of each face
+  std::vector<std::vector<Box>> levels_;  ///< from the leaves to the root
+};
+
+namespace internal {
+
+/// A convex part of a triangle.
+struct Triangle_piece
+{
+  boost::container::small_vector<Vector_3, 10> corners;
+  std::size_t guess;  ///< a triangle of the other surface near it
+
+  Vector_3 center() const
+  {
+    Vector_3 sum = Vector_3::Zero();
+    for (const Vector_3& p : corners) sum += p;
+    return sum / double(corners.size());
+  }
+
+  double largest_squared_distance(const Triangle_points& to) const
+  {
+    double largest = 0;
+    for (const Vector_3& p : corners) largest = (std::max)(largest, squared_distance_to_triangle(p, to));
+    return largest;
+  }
+};
+
+/// The parts of `piece` on both sides of a plane, the one that `normal` points to last. Either may have no corner. What
+/// sticks out by rounding is not cut off.
+inline std::array<Triangle_piece, 2> cut(const Triangle_piece& piece, const Vector_3& origin, const Vector_3& normal)
+{
+  std::array<Triangle_piece, 2> parts{Triangle_piece{{}, piece.guess}, Triangle_piece{{}, piece.guess}};
+  const std::size_t n = piece.corners.size();
+  double largest = 0;
+  for (const Vector_3& p : piece.corners) largest = (std::max)(largest, std::abs(normal.dot(p - origin)));
+  const double on_plane = 1e-6 * largest;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector_3 &p = piece.corners[i], &q = piece.corners[(i + 1) % n];
+    const double dp = normal.dot(p - origin), dq = normal.dot(q - origin);
+    if (dp <= on_plane) parts[0].corners.push_back(p);
+    if (dp >= -on_plane) parts[1].corners.push_back(p);
+    if ((std::min)(dp, dq) < -on_plane && (std::max)(dp, dq) > on_plane) {
+      const Vector_3 x = p + dp / (dp - dq) * (q - p);
+      for (Triangle_piece& part : parts) part.corners.push_back(x);
+    }
+  }
+  for (Triangle_piece& part : parts)
+    if (part.corners.size() < 3) part.corners.clear(); // no more than the border of the other part
+  return parts;
+}
+
+/// Calls `use(part)` for the halves of a piece across its longest edge.
+template <class Use>
+void halve(const Triangle_piece& piece, const Use& use)
+{
+  const std::size_t n = piece.corners.size();
+  Vector_3 longest = Vector_3::Zero();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector_3 e = piece.corners[(i + 1) % n] - piece.corners[i];
+    if (e.squaredNorm() > longest.squaredNorm()) longest = e;
+  }
+  for (const Triangle_piece& half : cut(piece, piece.center(), longest))
+    if (!half.corners.empty()) use(half);
+}
+
+/// Calls `use(part)` for the part of `piece` above the triangle `t` and for what is left at its sides; for halves if that
+/// would be the whole piece. Where surfaces are nearly parallel, parts above one triangle need not be cut further.
+template <class Use>
+void split(const Triangle_piece& piece, const Triangle_points& t, const Use& use)
+{
+  const Vector_3 n = (t[1] - t[0]).cross(t[2] - t[0]);
+  Triangle_piece rest = piece;
+  boost::container::static_vector<Triangle_piece, 3> sides;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto parts = cut(rest, t[i], (t[(i + 1) % 3] - t[i]).cross(n));
+    if (parts[0].corners.empty()) return halve(piece, use);
+    rest = parts[0];
+    if (!parts[1].corners.empty()) sides.push_back(parts[1]);
+  }
+  if (sides.empty()) return halve(piece, use);
+  for (const Triangle_piece& side : sides) use(side);
+  use(rest);
+}
+
+} // namespace internal
+
+/// Whether all points of `t` lie within `limit` of the surface. `false` may be wrong, for no more than `max_pieces` pieces
+/// of `t` are looked at. `guesses` are places of triangles of the surface near the corners.
+template <class Guesses>
+bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit, const Guesses& guesses,
+               std::size_t max_pieces = 64)
+{
+  const double squared_limit = limit * limit;
+  Ring<internal::Triangle_piece> pieces{{{t.begin(), t.end()}, 0}};
+  for (const std::size_t guess : guesses) {
+    if (pieces[0].largest_squared_distance(tree[guess]) <= squared_limit) return true;
+    pieces[0].guess = guess;
+  }
+  for (std::size_t looked_at = 0; !pieces.empty(); ++looked_at) {
+    if (looked_at == max_pieces) return false;
+    const internal::Triangle_piece piece = pieces.back();
+    pieces.pop_back();
+    const auto nearest = tree.nearest(piece.center(), piece.guess);
+    if (nearest.squared_distance > squared_limit) return false;
+    const Triangle_points& to = tree[nearest.triangle];
+    if (piece.largest_squared_distance(to) <= squared_limit) continue;
+    internal::split(piece, to, [&](internal::Triangle_piece part) {
+      part.guess = nearest.triangle;
+      if (part.largest_squared_distance(to) > squared_limit) pieces.push_back(part);
+    });
+  }
+  return true;
+}
+
+/// An upper bound of the distance from the points of `t` to the surface, at most `enough`, or else by no more than
+/// `precision` too large, unless that takes more than `max_pieces` pieces of `t`.
+inline double distance_bound(const Triangle_tree& tree, const Triangle_points& t, double enough, double precision,
+                             std::size_t max_pieces = 1 << 16)
+{
+  std::size_t looked_at = 0;
+  double upper = 0, lower = 0;
+  Ring<internal::Triangle_piece> pieces{{{t.begin(), t.end()}, 0}};
+  while (!pieces.empty()) {
+    const internal::Triangle_piece piece = pieces.back();
+    pieces.pop_back();
+    const auto nearest = tree.nearest(piece.center(), piece.guess);
+    lower = (std::max)(lower, std::sqrt(nearest.squared_distance));
+    const Triangle_points& to = tree[nearest.triangle];
+    const double bound = std::sqrt(piece.largest_squared_distance(to));
+    if (bound <= (std::max)(enough, lower + precision) || ++looked_at >= max_pieces) {
+      upper = (std::max)(upper, bound);
+      continue;
+    }
+    internal::split(piece, to, [&](internal::Triangle_piece part) {
+      part.guess = nearest.triangle;
+      pieces.push_back(part);
+    });
+  }
+  return upper;
+}
+
+/// An upper bound, by no more than `precision` too large, of the distance that points of one surface have from the other.
+/// A precision that is lost in rounding is replaced by one that is not.
+template <class Execution>
+double one_sided_distance_bound(const Execution& execution, const Triangle_tree& from, const Triangle_tree& to,
+                                double precision)
+{
+  constexpr double rounding = 1e-13;
+  precision = (std::max)(precision, rounding * to.extent());
+  const auto larger = [](double a, double b) { return (std::max)(a, b); };
+  const double lower = std::sqrt(reduce(execution, from.size(), 0.0, [&](std::size_t i) {
+    return to.nearest((from[i][0] + from[i][1] + from[i][2]) / 3).squared_distance;
+  }, larger));
+  return reduce(execution, from.size(), 0.0, [&](std::size_t i) {
+    return distance_bound(to, from[i], lower + precision, precision);
+  }, larger);
+}
+
+/// An upper bound of the Hausdorff distance between two surfaces, by no more than `precision` too large.
+/// O(n log n) for surfaces that are near each other, and more where the distance is nearly the largest over large parts.
+template <class Execution>
+double hausdorff_distance_bound(const Execution& execution, const Triangle_tree& a, const Triangle_tree& b, double precision)
+{
+  return (std::max)(one_sided_distance_bound(execution, a, b, precision),
+                    one_sided_distance_bound(execution, b, a, precision));
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_SURFACE_DISTANCE_H
