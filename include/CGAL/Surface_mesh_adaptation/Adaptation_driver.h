@@ -33,7 +33,8 @@ public:
     , relocation_(execution, surface, {})
   {}
 
-  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, the metric is scaled and a few more
+  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, the metric is scaled and a few
+  /// more
   /// follow, several times.
   Adaptation_report run(std::size_t rounds, std::size_t number_of_vertices = 0)
   {
@@ -73,7 +74,8 @@ private:
     return report_.after_round.empty() ? report_.initial : report_.after_round.back();
   }
 
-  /// Scales the metric until the mesh has about `n` vertices, by the secant of the logarithms: a mesh whose edges are all
+  /// Scales the metric until the mesh has about `n` vertices, by the secant of the logarithms: a mesh whose edges
+  /// are all
   /// well in range answers late, and then a step further than the number that is missing is needed.
   void meet_number(double n)
   {
