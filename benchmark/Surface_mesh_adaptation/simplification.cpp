@@ -2,7 +2,8 @@
 //
 // The distance between meshes and what is left of them after simplification, within a limit on the normals and on the
 // distance and without swaps, and at the same number of vertices by CGAL's quadric errors (M. Garland, P. Heckbert,
-// Surface simplification using quadric error metrics, 1997) with their own placement. The output is a table in Markdown:
+// Surface simplification using quadric error metrics, 1997) with their own placement. The output is a table in
+// Markdown:
 // largest and rms distance, sampled in both directions, in thousandths of the diagonal of the bounding box.
 
 #include "../../test/Surface_mesh_adaptation/distances.h"

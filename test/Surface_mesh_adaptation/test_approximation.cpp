@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Simplification within limits on distances and normals: that it keeps them, uses them up, and comes nearer to the input
+// Simplification within limits on distances and normals: that it keeps them, uses them up, and comes nearer to the
+// input
 // than quadric errors do.
 
 #include "checks.h"
@@ -74,7 +75,8 @@ TEST(Simplify_within_limits, keeps_normals_and_uses_the_limit_up)
     EXPECT_EQ(checks::topology(result), checks::topology(soup));
     // the normals of the input faces that a face stands for are up to 1.3 degrees off those of the sphere
     EXPECT_GT(least_cosine(result, normal), std::cos((degrees + 2.5) * shapes::pi / 180));
-    // a face with circumradius r deviates by r at its corners: 4 pi / N per vertex is 3/2 sqrt 3 r^2 for equilateral ones
+    // a face with circumradius r deviates by r at its corners: 4 pi / N per vertex is 3/2 sqrt 3 r^2 for equilateral
+    // ones
     const double radius = degrees * shapes::pi / 180;
     const double fewest = 4 * shapes::pi / (1.5 * std::sqrt(3.0) * radius * radius);
     EXPECT_LT(double(result.points.size()), 3 * fewest);

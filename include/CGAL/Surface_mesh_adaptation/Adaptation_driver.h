@@ -34,22 +34,17 @@ public:
     , relocation_(execution, surface, {})
   {}
 
-  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, the metric is scaled and a few more
-  /// follow.
+  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, the metric is scaled and a few
+  /// more
+  /// follow, several times.
   Adaptation_report run(std::size_t rounds, std::size_t number_of_vertices = 0)
   {
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
     if (report_.initial.in_range > adapted_share) relocation_.expect_adapted();
     find_work();
-    do_rounds(rounds);
-    for (int i = 0; i < max_corrections && number_of_vertices > 0 && !report_.stopped; ++i) {
-      const double ratio = double(number_of_vertices) / double(current().vertices);
-      if (std::abs(ratio - 1) < budget_precision) break;
-      surface_.scale_metric(execution_, std::clamp(ratio, 1 / max_correction, max_correction));
-      find_work();
-      do_rounds(rounds_of_correction);
-    }
+    do_rounds(rounds, report_.initial);
+    if (number_of_vertices > 0) meet_number(double(number_of_vertices));
     refinement_.compact();
     report_.final = current();
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -91,16 +86,38 @@ private:
     return report_.after_round.empty() ? report_.initial : report_.after_round.back();
   }
 
-  void do_rounds(std::size_t rounds)
+  /// Scales the metric until the mesh has about `n` vertices, by the secant of the logarithms: a mesh whose edges
+  /// are all
+  /// well in range answers late, and then a step further than the number that is missing is needed.
+  void meet_number(double n)
+  {
+    double answer = 1; // of the logarithm of the number to that of the scale
+    double scale = 0;
+    for (int i = 0; i < max_corrections && !report_.stopped; ++i) {
+      const double missing = std::log(n / double(current().vertices));
+      if (std::abs(missing) < budget_precision) break;
+      const double wanted = std::clamp(missing / answer, -largest_step, largest_step);
+      const double step = std::clamp(scale + wanted, -largest_scale, largest_scale) - scale;
+      if (step == 0) break;
+      surface_.scale_metric(execution_, std::exp(step));
+      scale += step;
+      find_work();
+      do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
+      answer = std::clamp((missing - std::log(n / double(current().vertices))) / step, least_answer, 1.0);
+    }
+  }
+
+  /// At most `rounds`, while they gain something on `before`.
+  void do_rounds(std::size_t rounds, Mesh_statistics before)
   {
     for (std::size_t i = 0; i < rounds && !report_.stopped; ++i, ++round_) {
-      const Mesh_statistics before = current();
       visitor_.round_begins(round_, round_ + rounds - i);
       do_round();
       report_.after_round.push_back(mesh_statistics(execution_, surface_));
       visitor_.round_done(round_, current());
       ++report_.rounds;
       if (!is_improving(before)) break;
+      before = current();
     }
   }
 
@@ -181,9 +198,11 @@ private:
   static constexpr double negligible_share = 0.004;
   static constexpr double refine_share = 0.01;           // a sweep rewrites the mesh, even for a single edge, so
   static constexpr double first_refine_share = 0.0015;   // a few edges wait for the first sweep of the next round
-  static constexpr int max_corrections = 2;              // of the metric, for a number of vertices
-  static constexpr double max_correction = 1.25;         // each
-  static constexpr double budget_precision = 0.02;
+  static constexpr int max_corrections = 4;              // of the metric, for a number of vertices
+  static constexpr double largest_step = 0.15;           // each, and all together, of the logarithm of the scale
+  static constexpr double largest_scale = 0.3;
+  static constexpr double least_answer = 0.5;
+  static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
   static constexpr double adapted_share = 0.95;          // of the edges in range
   static constexpr double least_gain = 0.0015;           // in the share of edges in range or in mean quality

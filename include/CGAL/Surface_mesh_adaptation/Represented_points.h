@@ -175,7 +175,8 @@ private:
     return i >= normals_.size() || normals_[i] == Vector_3::Zero() || normals_[i].dot(normal) >= limits_.min_cosine;
   }
 
-  /// Calls `g(u, v, weight)` for the corners and middles of edges that are listed with face `f`, each of which is listed
+  /// Calls `g(u, v, weight)` for the corners and middles of edges that are listed with face `f`, each of which is
+  /// listed
   /// once for each side. The weights, with 9/20 for the centroid, integrate cubic functions over a triangle.
   template <class G>
   void for_each_other_point(Index f, const G& g) const

@@ -31,14 +31,19 @@ public:
 
   void add(double x, double y, double value, double weight)
   {
-    Row row;
-    row << x, y, x * x / 2, x * y, y * y / 2, x * x * x, x * x * y, x * y * y, y * y * y;
+    const Row row = monomials(x, y);
     for (int j = 0; j < size; ++j) {
       const double wj = weight * row[j];
       right_hand_side_[j] += wj * value;
       for (int i = j; i < size; ++i) matrix_(i, j) += wj * row[i];
     }
     ++samples_;
+  }
+
+  /// Takes `value` from a sample that was added with the same weight.
+  void subtract(double x, double y, double value, double weight)
+  {
+    right_hand_side_ -= weight * value * monomials(x, y);
   }
 
   std::size_t number_of_samples() const { return samples_; }
@@ -51,6 +56,13 @@ private:
   static constexpr int size = 9;
   using Matrix = Eigen::Matrix<double, size, size>;
   using Row = Eigen::Matrix<double, size, 1>;
+
+  static Row monomials(double x, double y)
+  {
+    Row row;
+    row << x, y, x * x / 2, x * y, y * y / 2, x * x * x, x * x * y, x * y * y, y * y * y;
+    return row;
+  }
 
   /// The least square of the sine of the angle between a column of the problem and the span of those before it.
   static constexpr double least_pivot = 1e-5;

@@ -5,11 +5,13 @@
 // h^2 k / 6 and on average h^2 k / 8 inside of it where both curvatures are k, and fitted ones within h^2 k / 8 on both
 // sides and 0 on average.
 //
-// Least squares over the represented points of their distance from the faces, in the direction of the closest point, and
+// Least squares over the represented points of their distance from the faces, in the direction of the closest point,
+// and
 // of the vertices from their places on the reference: one block Jacobi step of Gauss-Newton a sweep.
 //
 // Conflict neighbourhood: none. Phases: faces (normal equations of their corners), vertices (step), faces (limits).
-// Invariants: connectivity and locations; corners stay; no face comes to violate a limit or turns by more than 60 degrees.
+// Invariants: connectivity and locations; corners stay; no face comes to violate a limit or turns by more than 60
+// degrees.
 // Work: O(represented points) a sweep; span: the points of a face.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H

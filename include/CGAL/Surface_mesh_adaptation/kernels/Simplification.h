@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Simplification: removes the vertices at the end of edges that are too short in the metric by collapsing these
-// (paper, figure 2 and section 5): the shortest first, or, within limits on what a face may deviate from the points that
+// (paper, figure 2 and section 5): the shortest first, or, within limits on what a face may deviate from the points
+// that
 // it stands for, the cheapest of a vertex below a bound that rises from sweep to sweep.
 //
 // Conflict neighbourhood of s -> d: the closed one-ring of s. The vertex d stays where it is, so nothing outside is
-// written; the design's brute-force trials and ours (test_mesh_view) found no invalid result. Where a face is not flat, the
+// written; the design's brute-force trials and ours (test_mesh_view) found no invalid result. Where a face is not
+// flat, the
 // test for folds also looks at the faces behind the ring: if these may be changing, the vertex is put off.
 // Invariants: simplicial 2-manifold, components, genus, boundary cycles; corners stay; curve vertices vanish only
 // along their curve; no face turns away from the surface.
