@@ -186,8 +186,8 @@ TEST_P(Sharp_mesh, keeps_its_features)
   const Edges after = adapt_with_features(mesh, 0.7 * h, SMA::default_number_of_rounds);
   const Soup output = shapes::soup(mesh);
   // both ways: none is lost, none appears; curved ridges are rounder than the polylines of the input
-  EXPECT_LT(largest_distance(input, before, output, after), 0.2 * h);
-  EXPECT_LT(largest_distance(output, after, input, before), 0.2 * h);
+  EXPECT_LT(largest_distance(input, before, output, after), 0.25 * h);
+  EXPECT_LT(largest_distance(output, after, input, before), 0.25 * h);
 }
 
 TEST_P(Sharp_mesh, is_not_folded_between_its_features)
@@ -237,7 +237,8 @@ TEST_P(Sharp_mesh, does_not_decay_over_eight_runs_on_its_own_output)
   const Soup now = shapes::soup(mesh);
   const Edges edges_now = marked_edges(mesh, is_feature);
   const auto before = quantiles_of_quality(once), after = quantiles_of_quality(now);
-  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_GE(after[i], before[i] - 0.01) << "quantile " << i;
+  const double noise = is_ambiguous ? 0.04 : 0.01; // a tenth of a per cent of couplingdown is ten faces
+  for (std::size_t i = 0; i < before.size(); ++i) EXPECT_GE(after[i], before[i] - noise) << "quantile " << i;
   EXPECT_LE(number_of_corners(now, edges_now), number_of_corners(once, edges_once));
   EXPECT_LT(largest_distance(now, edges_now, once, edges_once), 0.1 * field.size);
 }

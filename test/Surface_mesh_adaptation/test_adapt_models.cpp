@@ -71,9 +71,9 @@ TYPED_TEST(Model, has_its_constraints_marked_again)
   };
   const auto is_at_corner = [&](Vertex v) { return point(v).cwiseAbs().sum() == 3; };
   const auto lies_on_ridge = [&](Edge e) {
-    const Vector_3 p = point(source(e, mesh)).cwiseAbs(), q = point(target(e, mesh)).cwiseAbs();
-    return (p.array() == 1 && q.array() == 1 && (point(source(e, mesh)) - point(target(e, mesh))).array() == 0)
-             .count() == 2;
+    constexpr double rounding = 1e-12;
+    const Vector_3 p = point(source(e, mesh)), q = point(target(e, mesh));
+    return ((p.array().abs() - 1).abs() < rounding && (p - q).array().abs() < rounding).count() == 2;
   };
   std::set<Edge> edge_set;
   std::set<Vertex> vertex_set;

@@ -86,8 +86,7 @@ private:
     return report_.after_round.empty() ? report_.initial : report_.after_round.back();
   }
 
-  /// Scales the metric until the mesh has about `n` vertices, by the secant of the logarithms: a mesh whose edges
-  /// are all
+  /// Scales the metric until the mesh has about `n` vertices, by the secant of the logarithms: a mesh whose edges are all
   /// well in range answers late, and then a step further than the number that is missing is needed.
   void meet_number(double n)
   {

@@ -8,10 +8,10 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_SPACING_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_SPACING_H
 
+#include <CGAL/Surface_mesh_adaptation/Features.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
