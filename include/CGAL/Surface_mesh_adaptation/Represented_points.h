@@ -176,8 +176,7 @@ private:
   }
 
   /// Calls `g(u, v, weight)` for the corners and middles of edges that are listed with face `f`, each of which is
-  /// listed
-  /// once for each side. The weights, with 9/20 for the centroid, integrate cubic functions over a triangle.
+  /// listed once for each side. The weights, with 9/20 for the centroid, integrate cubic functions over a triangle.
   template <class G>
   void for_each_other_point(Index f, const G& g) const
   {

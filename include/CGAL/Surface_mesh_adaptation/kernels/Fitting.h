@@ -6,8 +6,7 @@
 // sides and 0 on average.
 //
 // Least squares over the represented points of their distance from the faces, in the direction of the closest point,
-// and
-// of the vertices from their places on the reference: one block Jacobi step of Gauss-Newton a sweep.
+// and of the vertices from their places on the reference: one block Jacobi step of Gauss-Newton a sweep.
 //
 // Conflict neighbourhood: none. Phases: faces (normal equations of their corners), vertices (step), faces (limits).
 // Invariants: connectivity and locations; corners stay; no face comes to violate a limit or turns by more than 60

@@ -21,6 +21,7 @@
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
 #include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
 
 #include <algorithm>
@@ -261,12 +262,7 @@ private:
                   Attempt<StandsStill>& attempt) const
   {
     if (after.alignment < (std::min)(min_alignment, before.alignment)) return false;
-    mesh_.for_each_outgoing(v, [&](Index h) {
-      const Index behind = mesh_.twin[Mesh_view::next(h)];
-      if (behind != no_index && !attempt.stands_still(mesh_.apex(behind))) attempt.is_put_off = true;
-    });
-    return !attempt.is_put_off && surface_.sharpest_fold(v, moved.point) >=
-                                    (std::min)(min_fold, surface_.sharpest_fold(v, surface_.points[v]));
+    return is_unfolded(surface_, v, moved.point, attempt.stands_still, attempt.is_put_off);
   }
 
   /// Displacement in the tangent plane to the mean of two points of each face around `v`, weighted by the masses of the
@@ -397,15 +393,12 @@ private:
   bool slide(Index v, const Star& star, Attempt<StandsStill>& attempt)
   {
     const Index curve = surface_.locations[v].cell;
-    Ring<Index> along;
-    for (const Neighbor& n : star.ring) {
-      const Index h = mesh_.halfedge(v, n.vertex);
-      if (mesh_.curve[h != no_index ? h : mesh_.halfedge(n.vertex, v)] == curve) along.push_back(n.vertex);
-    }
-    if (along.size() != 2) return false;
-    const auto arc0 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[along[0]]);
-    const auto arc1 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[along[1]]);
-    const double l0 = surface_.length(v, along[0]), l1 = surface_.length(v, along[1]);
+    const Index w1 = next_on_curve(surface_, v, no_index);
+    const Index w0 = w1 == no_index ? no_index : next_on_curve(surface_, v, w1);
+    if (w0 == no_index) return false;
+    const auto arc0 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[w0]);
+    const auto arc1 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[w1]);
+    const double l0 = surface_.length(v, w0), l1 = surface_.length(v, w1);
     const double d0 = arc0.second - arc0.first, d1 = arc1.second - arc1.first;
     if (!(d0 * d1 < 0) || !(l0 + l1 > 0)) return false;
     // towards the longer side by half of the excess, in units of arc length per metric length

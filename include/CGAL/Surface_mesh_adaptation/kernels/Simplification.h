@@ -235,17 +235,8 @@ private:
                  (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit);
       return is_valid;
     });
-    if (!is_valid) return false;
-    if (!is_flat) {
-      mesh_.for_each_outgoing(s, [&](Index h) {
-        const Index behind = mesh_.twin[Mesh_view::next(h)];
-        if (behind != no_index && !is_seen(mesh_.apex(behind))) is_put_off = true;
-      });
-      if (is_put_off || surface_.sharpest_fold(s, surface_.points[d]) <
-                          (std::min)(min_fold, surface_.sharpest_fold(s, surface_.points[s])))
-        return false;
-    }
-    return !surface_.has_tolerance() || keeps_tolerance(s, d);
+    return is_valid && (is_flat || is_unfolded(surface_, s, surface_.points[d], is_seen, is_put_off)) &&
+           (!surface_.has_tolerance() || keeps_tolerance(s, d));
   }
 
   bool keeps_tolerance(Index s, Index d) const
@@ -267,17 +258,8 @@ private:
   bool is_curve_preserved(Index s, Index d) const
   {
     const Index curve = surface_.locations[s].cell;
-    Index other = no_index;
+    const Index other = next_on_curve(surface_, s, d);
     bool is_free = true;
-    const auto visit = [&](Index w, Index h) {
-      if (mesh_.curve[h] == curve && w != d) other = w;
-    };
-    Index last = no_index;
-    mesh_.for_each_outgoing(s, [&](Index h) {
-      visit(mesh_.target(h), h);
-      last = Mesh_view::previous(h);
-    });
-    if (mesh_.is_border(last)) visit(mesh_.source(last), last);
     if (other == no_index) return false;
     const Vector_3 a = surface_.points[d] - surface_.points[s], b = surface_.points[s] - surface_.points[other];
     if (a.dot(b) < min_curve_turn * a.norm() * b.norm()) return false;

@@ -9,6 +9,7 @@
 
 #include <boost/atomic/atomic_ref.hpp>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace CGAL {
@@ -23,6 +24,20 @@ constexpr double min_alignment = 0.5;
 
 /// Least cosine between two faces at a smooth edge that an operation may create, unless it mends a sharper one.
 constexpr double min_fold = 0.0;
+
+/// Whether moving `v` to `p`, or collapsing it with the vertex there, folds no two faces more than is the case. That takes
+/// a look at the faces behind those around `v`: where `is_seen(w)` denies one of their vertices `w`, which another task
+/// may be changing, `is_put_off` is set and the answer is no.
+template <class Surface, class IsSeen>
+bool is_unfolded(const Surface& surface, Index v, const Vector_3& p, const IsSeen& is_seen, bool& is_put_off)
+{
+  surface.mesh.for_each_outgoing(v, [&](Index h) {
+    const Index behind = surface.mesh.twin[Mesh_view::next(h)];
+    if (behind != no_index && !is_seen(surface.mesh.apex(behind))) is_put_off = true;
+  });
+  return !is_put_off &&
+         surface.sharpest_fold(v, p) >= (std::min)(min_fold, surface.sharpest_fold(v, surface.points[v]));
+}
 
 /// Swaps leave alone an edge between two faces of at least this quality: its other diagonal makes two bad ones.
 constexpr double max_improvable_quality = 0.9;
