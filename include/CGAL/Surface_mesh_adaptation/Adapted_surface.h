@@ -10,7 +10,6 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_background.h>
 #include <CGAL/Surface_mesh_adaptation/Reference_surface.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/metric.h>
 #include <CGAL/Surface_mesh_adaptation/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
@@ -111,10 +110,10 @@ public:
     return Surface_mesh_adaptation::is_shorter(metrics[a], metrics[b], points[b] - points[a], l);
   }
 
-  CGAL_SMA_FLATTEN double quality(Index a, Index b, Index c) const { return squared_shape(a, b, c).quality(); }
+  double quality(Index a, Index b, Index c) const { return squared_shape(a, b, c).quality(); }
 
   /// `quality(a, b, c) >= q`, without a root.
-  CGAL_SMA_FLATTEN bool has_quality(Index a, Index b, Index c, double q) const
+  bool has_quality(Index a, Index b, Index c, double q) const
   {
     return squared_shape(a, b, c).is_at_least(q);
   }

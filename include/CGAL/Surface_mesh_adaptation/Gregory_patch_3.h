@@ -7,7 +7,6 @@
 
 #include <CGAL/Surface_mesh_adaptation/Patch.h>
 #include <CGAL/Surface_mesh_adaptation/internal/cubic_curve.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 
 #include <algorithm>
 #include <array>
@@ -82,7 +81,7 @@ public:
   }
 
   /// The point there and the unit normal; where the derivatives are parallel, the mean of the corner normals.
-  CGAL_SMA_FLATTEN Surface_point evaluate(double u, double v) const
+  Surface_point evaluate(double u, double v) const
   {
     const Blend b = blend(u, v);
     return {b.point(), unit_normal((b.r[1] - b.r[0]).cross(b.r[2] - b.r[0]), u, v)};

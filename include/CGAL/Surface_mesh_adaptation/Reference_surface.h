@@ -12,7 +12,6 @@
 #include <CGAL/Surface_mesh_adaptation/feature_normals.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Lazy_jets.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Patch_cache.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/surface_reconstruction.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
 
@@ -129,7 +128,7 @@ public:
   /// in the direction of the projection of `d` onto the face of `l`, with the length of that projection, or of `d` if
   /// `keep_length`. The path ends early where it meets a feature or the boundary.
   /// \pre `l.kind` is smooth
-  CGAL_SMA_FLATTEN Location trace(const Location& l, const Vector_3& d, bool keep_length) const
+  Location trace(const Location& l, const Vector_3& d, bool keep_length) const
   {
     Index f = l.cell;
     double b[3] = {1 - l.u - l.v, l.u, l.v};

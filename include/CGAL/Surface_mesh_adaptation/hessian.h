@@ -10,7 +10,6 @@
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_jets.h>
 
 #include <algorithm>
@@ -25,7 +24,7 @@ namespace internal {
 
 /// The Hessian at the source of `first`, in the sector of `n` faces with the unit normal `normal`; zero if the samples
 /// do not determine it.
-CGAL_SMA_FLATTEN inline Metric_tensor_3 hessian_of_sector(const Mesh_view& mesh, const std::vector<Vector_3>& points,
+inline Metric_tensor_3 hessian_of_sector(const Mesh_view& mesh, const std::vector<Vector_3>& points,
                                                           Index first, std::size_t n, const Vector_3& normal,
                                                           const std::vector<double>& values)
 {

@@ -8,7 +8,6 @@
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +52,7 @@ struct Statistics_sum
   }
 
   template <class Metric>
-  CGAL_SMA_FLATTEN void add_face(const Metric& ma, const Metric& mb, const Metric& mc, const Vector_3& a,
+  void add_face(const Metric& ma, const Metric& mb, const Metric& mc, const Vector_3& a,
                                  const Vector_3& b, const Vector_3& c)
   {
     const Vector_3 ab = b - a, ac = c - a, bc = c - b;

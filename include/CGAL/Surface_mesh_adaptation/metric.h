@@ -163,7 +163,7 @@ inline double face_mass(const Isotropic_metric& a, const Isotropic_metric& b, co
 inline double face_mass(const Anisotropic_metric& a, const Anisotropic_metric& b, const Anisotropic_metric& c,
                         const Vector_3& e1, const Vector_3& e2, double projected_area)
 {
-  const double squared = internal::squared_shape(a, b, c, e1, e2, Vector_3()).squared_double_area;
+  const double squared = internal::squared_shape(a, b, c, e1, e2, Vector_3::Zero()).squared_double_area;
   return std::copysign(std::sqrt((std::max)(0.0, squared)), projected_area);
 }
 

@@ -6,8 +6,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_METRIC_INTERSECTION_H
 
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
-
-#include <Eigen/Cholesky>
+#include <CGAL/Surface_mesh_adaptation/internal/Cholesky.h>
 
 #include <boost/container/small_vector.hpp>
 
@@ -23,10 +22,10 @@ namespace Surface_mesh_adaptation {
 /// \pre both are positive definite
 inline Metric_tensor_3 intersection(const Metric_tensor_3& a, const Metric_tensor_3& b)
 {
-  const Eigen::LLT<Matrix_3> root(a.matrix());
-  const Matrix_3 half = root.matrixL().solve(b.matrix());
-  const Eigen_decomposition_3 e = eigen_decomposition(Metric_tensor_3(Matrix_3(root.matrixL().solve(half.transpose()))));
-  const Matrix_3 q = root.matrixL() * e.vectors;
+  const internal::Cholesky<3> root(a.matrix());
+  const Matrix_3 half = root.solve_lower(b.matrix());
+  const Eigen_decomposition_3 e = eigen_decomposition(Metric_tensor_3(root.solve_lower(Matrix_3(half.transpose()))));
+  const Matrix_3 q = root.lower() * e.vectors;
   return Metric_tensor_3(Matrix_3(q * e.values.cwiseMax(1.0).asDiagonal() * q.transpose()));
 }
 

@@ -8,7 +8,6 @@
 #include <CGAL/Surface_mesh_adaptation/Gregory_patch_3.h>
 #include <CGAL/Surface_mesh_adaptation/Patch.h>
 #include <CGAL/Surface_mesh_adaptation/internal/cubic_curve.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 
 #include <cstddef>
 
@@ -41,7 +40,7 @@ struct Flat_reconstruction
 /// \cgalModels `SurfaceReconstruction`
 struct PN_triangle_reconstruction
 {
-  CGAL_SMA_FLATTEN static Surface_point evaluate(const Patch& p, double u, double v)
+  static Surface_point evaluate(const Patch& p, double u, double v)
   {
     const Vector_3 &p0 = p.points[0], &p1 = p.points[1], &p2 = p.points[2];
     const Edge_handles h0 = handles(p, 0), h1 = handles(p, 1), h2 = handles(p, 2);
@@ -115,7 +114,7 @@ struct Basic_gregory_reconstruction
     explicit Prepared_patch(const Patch& p) : Gregory_patch_3(p, construction) {}
   };
 
-  CGAL_SMA_FLATTEN static Surface_point evaluate(const Patch& p, double u, double v)
+  static Surface_point evaluate(const Patch& p, double u, double v)
   {
     return Gregory_patch_3(p, construction).evaluate(u, v);
   }

@@ -10,13 +10,11 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Cholesky.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Cubic_fit.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Sector_neighborhood.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
-
-#include <Eigen/Cholesky>
 
 #include <array>
 #include <cmath>
@@ -147,7 +145,7 @@ enum class Fit_degree : std::uint8_t { none, quadratic, cubic };
 
 /// The fit over the neighbourhood of a sector with the normal `normal` of Max: of the highest degree that has samples
 /// enough and a normal within 30 degrees of `normal`; if there is none, `jet` stays.
-CGAL_SMA_FLATTEN inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first,
+inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first,
                                            std::size_t n, const Vector_3& normal, Jet_fit samples, Jet_of_sector& jet)
 {
   Sector_neighborhood neighbors(mesh, first, n);
@@ -195,7 +193,9 @@ inline Metric_tensor_3 shape_operator_of_face(const std::array<Vector_3, 3>& p, 
     a += rows.transpose() * rows;
     b += rows.transpose() * Eigen::Vector2d(dn.dot(u), dn.dot(v));
   }
-  const Vector_3 s = a.ldlt().solve(b);
+  const Cholesky<3> factors(a);
+  if (!factors.is_positive_definite()) return zero;
+  const Vector_3 s = factors.solve(b);
   if (!s.allFinite()) return zero;
   return Metric_tensor_3(Matrix_3(s[0] * u * u.transpose() + s[1] * (u * v.transpose() + v * u.transpose()) +
                                   s[2] * v * v.transpose()));

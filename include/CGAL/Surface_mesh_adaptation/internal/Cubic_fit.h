@@ -5,7 +5,8 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_CUBIC_FIT_H
 #define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_CUBIC_FIT_H
 
-#include <Eigen/Cholesky>
+#include <CGAL/Surface_mesh_adaptation/internal/Cholesky.h>
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -64,8 +65,8 @@ private:
     return row;
   }
 
-  /// The least square of the sine of the angle between a column of the problem and the span of those before it.
-  static constexpr double least_pivot = 1e-5;
+  /// The least sine of the angle between a column of the problem and the span of those before it.
+  static constexpr double least_sine = 3.2e-3;
   /// The least length of a column over the longest: where all samples lie on two lines, the mixed one is but rounding.
   static constexpr double least_column = 1e-6;
 
@@ -76,12 +77,9 @@ private:
     const Vector scale = matrix_.template topLeftCorner<n, n>().diagonal().cwiseSqrt();
     if (!(scale.minCoeff() > least_column * scale.maxCoeff())) return false;
     const Vector inverse = scale.cwiseInverse();
-    Eigen::Matrix<double, n, n> a =
-      inverse.asDiagonal() * matrix_.template topLeftCorner<n, n>() * inverse.asDiagonal();
-    const Eigen::LLT<Eigen::Ref<Eigen::Matrix<double, n, n>>, Eigen::Lower> factors(a);
-    if (factors.info() != Eigen::Success || !(a.diagonal().cwiseAbs2().minCoeff() > least_pivot)) return false;
-    const Vector c =
-      inverse.cwiseProduct(factors.solve(inverse.cwiseProduct(right_hand_side_.template head<n>()))).eval();
+    const Cholesky<n> factors(inverse.asDiagonal() * matrix_.template topLeftCorner<n, n>() * inverse.asDiagonal());
+    if (!factors.is_positive_definite() || !(factors.least_pivot() > least_sine)) return false;
+    const Vector c = inverse.cwiseProduct(factors.solve(inverse.cwiseProduct(right_hand_side_.template head<n>())));
     result.gradient << c[0], c[1];
     result.hessian << c[2], c[3], c[3], c[4];
     return true;

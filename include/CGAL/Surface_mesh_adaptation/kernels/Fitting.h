@@ -17,8 +17,9 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H
 
 #include <CGAL/Surface_mesh_adaptation/Represented_points.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Cholesky.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
@@ -97,7 +98,7 @@ private:
     if (!(pull > 0)) return;
     e.matrix += pull * Matrix_3::Identity();
     e.right_side += pull * (places_[v] - surface_.points[v]);
-    Vector_3 d = surface_.points[v] + damping * e.matrix.llt().solve(e.right_side) - places_[v];
+    Vector_3 d = surface_.points[v] + damping * internal::Cholesky<3>(e.matrix).solve(e.right_side) - places_[v];
     const double length = d.norm();
     if (length > max_move_) d *= max_move_ / length;
     if (std::isfinite(length)) surface_.points[v] = places_[v] + d;

@@ -19,7 +19,6 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
 #include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
@@ -174,7 +173,7 @@ private:
   }
 
   /// The neighbours may move now; the other kernels look again only where the move left something for them.
-  CGAL_SMA_FLATTEN void activate_around(Index v, const Star& star, const Placed_vertex<Metric>& moved)
+  void activate_around(Index v, const Star& star, const Placed_vertex<Metric>& moved)
   {
     constexpr std::uint8_t relocate = std::uint8_t(Activity::relocate);
     std::uint8_t of_all = relocate;
@@ -204,7 +203,7 @@ private:
     return s;
   }
 
-  CGAL_SMA_FLATTEN static Shape shape(const Star& star, const Placed_vertex<Metric>& v)
+  static Shape shape(const Star& star, const Placed_vertex<Metric>& v)
   {
     Shape s;
     star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
@@ -223,7 +222,7 @@ private:
 
   /// Whether all faces around the smooth vertex `v` have the quality `good_quality` and are so flat that they can be no
   /// part of a fold: a test without roots and quotients, which nearly all moves pass.
-  CGAL_SMA_FLATTEN bool is_good(const Star& star, const Placed_vertex<Metric>& v) const
+  bool is_good(const Star& star, const Placed_vertex<Metric>& v) const
   {
     return star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
       const Vector_3 ea = a.point - v.point, eb = b.point - v.point;
@@ -268,7 +267,7 @@ private:
   /// Displacement in the tangent plane to the mean of two points of each face around `v`, weighted by the masses of the
   /// faces: the centre of mass, which makes the mesh as dense as the metric asks for, and the place of `v` at which the
   /// face would be equilateral in the metric.
-  CGAL_SMA_FLATTEN Vector_3 displacement_to_center(Index v, const Star& star) const
+  Vector_3 displacement_to_center(Index v, const Star& star) const
   {
     const Vector_3 &p = surface_.points[v], &normal = surface_.normals[v];
     const Metric& metric = surface_.metrics[v];
@@ -333,7 +332,7 @@ private:
   }
 
   /// The distortions of the faces around `p` and how they change with it.
-  CGAL_SMA_FLATTEN Ring<Linear_function_2> distortions(const Star& star, const Placed_vertex<Metric>& p) const
+  Ring<Linear_function_2> distortions(const Star& star, const Placed_vertex<Metric>& p) const
   {
     const Frame f = frame(p);
     Ring<Linear_function_2> functions;
@@ -345,7 +344,7 @@ private:
   }
 
   /// Whether no face around `v` is worse than `q`.
-  CGAL_SMA_FLATTEN bool has_quality(const Star& star, const Placed_vertex<Metric>& v, double q) const
+  bool has_quality(const Star& star, const Placed_vertex<Metric>& v, double q) const
   {
     return star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
       const Vector_3 ea = a.point - v.point, eb = b.point - v.point;

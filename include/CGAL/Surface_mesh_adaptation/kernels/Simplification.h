@@ -19,7 +19,6 @@
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/Represented_points.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
@@ -102,7 +101,7 @@ private:
   /// as they may be seen. A test for folds looks at the faces behind those around `s`: where one of their vertices may
   /// not be seen, `is_put_off` is set and there is none.
   template <class IsSeen>
-  CGAL_SMA_FLATTEN Mesh_view::Directed_edge propose(Index s, const IsSeen& is_seen, bool& is_put_off)
+  Mesh_view::Directed_edge propose(Index s, const IsSeen& is_seen, bool& is_put_off)
   {
     if (represented_ != nullptr) least_cost_[s] = Represented_points<Surface>::too_much;
     if (surface_.vertex_class(s) == Vertex_class::corner) return {};

@@ -11,7 +11,6 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
-#include <CGAL/Surface_mesh_adaptation/internal/flatten.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
@@ -60,7 +59,7 @@ public:
   }
 
   /// The gain in worst quality of swapping the edge of `h`, or 0 if that is not possible or no improvement.
-  CGAL_SMA_FLATTEN double gain(Index h) const
+  double gain(Index h) const
   {
     if (mesh_.is_feature(h)) return 0; // so is the boundary
     const Index t = mesh_.twin[h];
