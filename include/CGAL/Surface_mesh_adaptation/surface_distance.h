@@ -39,22 +39,43 @@ inline double squared_distance_to_segment(const Vector_3& p, const Vector_3& a, 
   return (p - a - t * e).squaredNorm();
 }
 
+namespace internal {
+
+/// A triangle, which may be degenerate, prepared for the distances of several points. It must live as long.
+class Distance_to_triangle
+{
+public:
+  explicit Distance_to_triangle(const Triangle_points& t)
+    : triangle_(t), normal_((t[1] - t[0]).cross(t[2] - t[0])), squared_area_(normal_.squaredNorm())
+  {
+    for (std::size_t i = 0; i < 3; ++i) inward_[i] = normal_.cross(t[(i + 1) % 3] - t[i]);
+  }
+
+  /// The squared distance from `p`: what is next to it lies on an edge that it is beyond, or inside.
+  double squared(const Vector_3& p) const
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(squared_area_ > 0) || inward_[i].dot(p - triangle_[i]) < 0)
+        least = (std::min)(least, squared_distance_to_segment(p, triangle_[i], triangle_[(i + 1) % 3]));
+    if (least < std::numeric_limits<double>::infinity()) return least;
+    const double height = normal_.dot(p - triangle_[0]);
+    return height * height / squared_area_;
+  }
+
+private:
+  const Triangle_points& triangle_;
+  Vector_3 normal_;
+  double squared_area_; // times four
+  std::array<Vector_3, 3> inward_;
+};
+
+} // namespace internal
+
 /// Squared distance from `p` to a triangle, which may be degenerate.
 inline double squared_distance_to_triangle(const Vector_3& p, const Triangle_points& t)
 {
-  const Vector_3 n = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double squared_area = n.squaredNorm();
-  bool is_above = squared_area > 0;
-  for (std::size_t i = 0; i < 3 && is_above; ++i) {
-    const Vector_3 &a = t[i], &b = t[(i + 1) % 3];
-    is_above = n.dot((b - a).cross(p - a)) >= 0;
-  }
-  if (is_above) {
-    const double height = n.dot(p - t[0]);
-    return height * height / squared_area;
-  }
-  return (std::min)({squared_distance_to_segment(p, t[0], t[1]), squared_distance_to_segment(p, t[1], t[2]),
-                     squared_distance_to_segment(p, t[2], t[0])});
+  return internal::Distance_to_triangle(t).squared(p);
 }
 
 /// The triangles of a surface in a tree of bounding boxes: four in order along a Hilbert curve in a leaf, and half as
@@ -81,6 +102,13 @@ public:
     for_each_index(execution, order.size(), [&](std::size_t i) {
       triangles_[i] = unsorted[order[i]];
       place_[faces[order[i]]] = i;
+    });
+    beyond_.resize(order.size());
+    for_each_index(execution, order.size(), [&](std::size_t i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index t = mesh.twin[3 * std::size_t(faces[order[i]]) + k];
+        beyond_[i][k] = t == no_index ? i : place_[Mesh_view::face(t)];
+      }
     });
     build(execution);
   }
@@ -114,6 +142,20 @@ public:
       else push_children(e, p, stack);
     }
     return best;
+  }
+
+  /// A triangle near `p`, reached from `start` across edges that `p` lies beyond. Where the surface is nearly flat it is
+  /// the one next to `p`; it may be any.
+  std::size_t towards(const Vector_3& p, std::size_t start) const
+  {
+    constexpr int max_steps = 8;
+    std::size_t i = start;
+    for (int step = 0; step < max_steps; ++step) {
+      const std::size_t next = step_towards(p, i);
+      if (next == i) break;
+      i = next;
+    }
+    return i;
   }
 
 private:
@@ -156,6 +198,23 @@ private:
     }
   }
 
+  /// The triangle across the edge of triangle `i` beyond which `p` lies farthest, or `i`.
+  std::size_t step_towards(const Vector_3& p, std::size_t i) const
+  {
+    const Triangle_points& t = triangles_[i];
+    const Vector_3 n = (t[1] - t[0]).cross(t[2] - t[0]);
+    double farthest = 0;
+    std::size_t next = i;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double inside = n.dot((t[(k + 1) % 3] - t[k]).cross(p - t[k]));
+      if (inside < farthest) {
+        farthest = inside;
+        next = beyond_[i][k];
+      }
+    }
+    return next;
+  }
+
   void visit_leaf(std::size_t leaf, const Vector_3& p, Nearest& best) const
   {
     for (std::size_t i = leaf_size * leaf; i < (std::min)(leaf_size * (leaf + 1), size()); ++i) {
@@ -180,6 +239,7 @@ private:
 
   std::vector<Triangle_points> triangles_;
   std::vector<std::size_t> place_;        ///< of each face
+  std::vector<std::array<std::size_t, 3>> beyond_; ///< the triangle across each edge; itself at the boundary
   std::vector<std::vector<Box>> levels_;  ///< from the leaves to the root
 };
 
@@ -200,8 +260,9 @@ struct Triangle_piece
 
   double largest_squared_distance(const Triangle_points& to) const
   {
+    const Distance_to_triangle distance(to);
     double largest = 0;
-    for (const Vector_3& p : corners) largest = (std::max)(largest, squared_distance_to_triangle(p, to));
+    for (const Vector_3& p : corners) largest = (std::max)(largest, distance.squared(p));
     return largest;
   }
 };
@@ -281,12 +342,17 @@ bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit
     if (looked_at == max_pieces) return false;
     const internal::Triangle_piece piece = pieces.back();
     pieces.pop_back();
-    const auto nearest = tree.nearest(piece.center(), piece.guess);
-    if (nearest.squared_distance > squared_limit) return false;
-    const Triangle_points& to = tree[nearest.triangle];
+    const Vector_3 center = piece.center();
+    std::size_t near = tree.towards(center, piece.guess); // any triangle that is near enough will do
+    if (squared_distance_to_triangle(center, tree[near]) > squared_limit) {
+      const auto nearest = tree.nearest(center, near);
+      if (nearest.squared_distance > squared_limit) return false;
+      near = nearest.triangle;
+    }
+    const Triangle_points& to = tree[near];
     if (piece.largest_squared_distance(to) <= squared_limit) continue;
     internal::split(piece, to, [&](internal::Triangle_piece part) {
-      part.guess = nearest.triangle;
+      part.guess = near;
       if (part.largest_squared_distance(to) > squared_limit) pieces.push_back(part);
     });
   }
@@ -294,26 +360,32 @@ bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit
 }
 
 /// An upper bound of the distance from the points of `t` to the surface, at most `enough`, or else by no more than
-/// `precision` too large, unless that takes more than `max_pieces` pieces of `t`.
+/// `precision` too large, unless that takes more than `max_pieces` pieces of `t`. `guess` is a triangle of the surface
+/// near `t`.
 inline double distance_bound(const Triangle_tree& tree, const Triangle_points& t, double enough, double precision,
-                             std::size_t max_pieces = 1 << 16)
+                             std::size_t guess = 0, std::size_t max_pieces = 1 << 16)
 {
   std::size_t looked_at = 0;
   double upper = 0, lower = 0;
-  Ring<internal::Triangle_piece> pieces{{{t.begin(), t.end()}, 0}};
+  Ring<internal::Triangle_piece> pieces{{{t.begin(), t.end()}, guess}};
   while (!pieces.empty()) {
     const internal::Triangle_piece piece = pieces.back();
     pieces.pop_back();
-    const auto nearest = tree.nearest(piece.center(), piece.guess);
-    lower = (std::max)(lower, std::sqrt(nearest.squared_distance));
-    const Triangle_points& to = tree[nearest.triangle];
-    const double bound = std::sqrt(piece.largest_squared_distance(to));
+    const Vector_3 center = piece.center();
+    std::size_t near = tree.towards(center, piece.guess);
+    double bound = std::sqrt(piece.largest_squared_distance(tree[near]));
+    if (bound > (std::max)(enough, lower + precision)) {
+      const auto nearest = tree.nearest(center, near);
+      near = nearest.triangle;
+      lower = (std::max)(lower, std::sqrt(nearest.squared_distance));
+      bound = std::sqrt(piece.largest_squared_distance(tree[near]));
+    }
     if (bound <= (std::max)(enough, lower + precision) || ++looked_at >= max_pieces) {
       upper = (std::max)(upper, bound);
       continue;
     }
-    internal::split(piece, to, [&](internal::Triangle_piece part) {
-      part.guess = nearest.triangle;
+    internal::split(piece, tree[near], [&](internal::Triangle_piece part) {
+      part.guess = near;
       pieces.push_back(part);
     });
   }
@@ -329,11 +401,16 @@ double one_sided_distance_bound(const Execution& execution, const Triangle_tree&
   constexpr double rounding = 1e-13;
   precision = (std::max)(precision, rounding * to.extent());
   const auto larger = [](double a, double b) { return (std::max)(a, b); };
+  std::vector<std::size_t> guess(from.size());
   const double lower = std::sqrt(reduce(execution, from.size(), 0.0, [&](std::size_t i) {
-    return to.nearest((from[i][0] + from[i][1] + from[i][2]) / 3).squared_distance;
+    const Vector_3 center = (from[i][0] + from[i][1] + from[i][2]) / 3;
+    // both are in order along the same curve, more or less
+    const auto nearest = to.nearest(center, to.towards(center, i * to.size() / from.size()));
+    guess[i] = nearest.triangle;
+    return nearest.squared_distance;
   }, larger));
   return reduce(execution, from.size(), 0.0, [&](std::size_t i) {
-    return distance_bound(to, from[i], lower + precision, precision);
+    return distance_bound(to, from[i], lower + precision, precision, guess[i]);
   }, larger);
 }
 
