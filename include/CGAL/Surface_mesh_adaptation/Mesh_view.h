@@ -15,6 +15,7 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -27,6 +28,10 @@ constexpr Index no_index = ~Index(0);
 
 /// Mark of a halfedge that lies on no feature curve.
 constexpr Index no_curve = ~Index(0);
+
+/// Neighbours, halfedges or positions around a vertex; on the stack for the usual degrees.
+template <class T>
+using Ring = boost::container::small_vector<T, 16>;
 
 class Mesh_view
 {
@@ -182,9 +187,11 @@ public:
     if (!on_border && is_border_vertex(s)) return false;
     if (!can_lose_an_edge(apex(e.h)) || (!on_border && !can_lose_an_edge(apex(t)))) return false;
 
+    Ring<Index> around_d;
+    for_each_neighbor(d, [&](Index x) { around_d.push_back(x); });
     std::size_t common = 0;
     for_each_neighbor(s, [&](Index x) {
-      if (x != d && are_adjacent(d, x)) ++common;
+      common += std::size_t(std::count(around_d.begin(), around_d.end(), x)); // `d` is not its own neighbour
     });
     return common == (on_border ? 1u : 2u);
   }
@@ -234,10 +241,6 @@ private:
   /// Whether `v` keeps a fan of at least three (at a boundary, one) faces when a face between two of its edges goes.
   bool can_lose_an_edge(Index v) const { return degree(v) > (is_border_vertex(v) ? 2u : 3u); }
 };
-
-/// Neighbours, halfedges or positions around a vertex; on the stack for the usual degrees.
-template <class T>
-using Ring = boost::container::small_vector<T, 16>;
 
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
