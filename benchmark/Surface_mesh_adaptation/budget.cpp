@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How far numbers of vertices are missed, in percent, for ratios of the number asked for to that of the input: sizes from
-// the curvature on a sphere, a torus and a mechanical part, and from a field with a shock on the unit square. Each as it
-// is, with bounds of .6 and 1.6 times the edges of N equilateral vertices, without gradation, and from a mesh that is
-// adapted already. Then, over all ratios, the least share of edges in range, the least mean quality and the most rounds.
+// How far numbers of vertices are missed, in percent, for ratios of the number asked for to that of the input: sizes
+// from the curvature on a sphere, a torus and a mechanical part, and from a field with a shock on the unit square. Each
+// as it is, with bounds of .6 and 1.6 times the edges of a mesh of so many equilateral faces, without gradation, and
+// from a mesh that is adapted already. Then, over all ratios, the least share of edges in range, the least mean quality
+// and the most rounds.
 
 #include "../../test/Surface_mesh_adaptation/analytic_fields.h"
 #include "../../test/Surface_mesh_adaptation/shapes.h"

@@ -314,7 +314,8 @@ TEST_F(Adapt_mesh, keeps_a_tolerance_and_says_so)
 TEST_F(Adapt_mesh, aims_at_a_number_of_vertices)
 {
   write(path("in.off"), off(shapes::sphere(4, 0.3)));
-  for (const std::string options : {"--vertices 1000", "--vertices 800 --anisotropic", "--vertices 3000", "--vertices 10000 --gradation 1.2"}) {
+  for (const std::string options : {"--vertices 1000", "--vertices 800 --anisotropic", "--vertices 3000",
+                                    "--vertices 10000 --gradation 1.2"}) {
     SCOPED_TRACE(options);
     ASSERT_EQ(run("in.off out.off " + options).status, 0);
     const double asked = std::stod(options.substr(11));

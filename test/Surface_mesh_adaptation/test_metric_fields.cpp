@@ -676,7 +676,8 @@ TEST(Number_of_vertices, is_met_by_the_adapted_mesh)
       const auto n = [&](const Mesh& mesh) { return std::size_t(ratio * double(mesh.number_of_vertices())); };
       expect_number_of_vertices(sphere, curvature_field(n(sphere), anisotropic), "sphere");
       expect_number_of_vertices(torus, curvature_field(n(torus), anisotropic), "torus");
-      auto on_torus = solution_field(torus, wave, n(torus)), on_square = solution_field(square, analytic::front, n(square));
+      auto on_torus = solution_field(torus, wave, n(torus)),
+           on_square = solution_field(square, analytic::front, n(square));
       on_torus.anisotropic = on_square.anisotropic = anisotropic;
       expect_number_of_vertices(torus, on_torus, "wave on a torus");
       expect_number_of_vertices(square, on_square, "front");
@@ -688,8 +689,8 @@ TEST(Number_of_vertices, is_met_on_a_part_with_ridges)
   const Mesh part = real_mesh<Mesh>("anchor_dense");
   for (const double ratio : {0.1, 0.3, 1.2})
     for (const bool anisotropic : {false, true})
-      expect_number_of_vertices(part, curvature_field(std::size_t(ratio * double(part.number_of_vertices())), anisotropic),
-                                "part with ridges");
+      expect_number_of_vertices(
+        part, curvature_field(std::size_t(ratio * double(part.number_of_vertices())), anisotropic), "part with ridges");
 }
 
 TEST(Number_of_vertices, is_met_by_a_mesh_that_conforms_already)
@@ -698,7 +699,7 @@ TEST(Number_of_vertices, is_met_by_a_mesh_that_conforms_already)
     const Mesh torus = expect_number_of_vertices(shapes::mesh<Mesh>(shapes::torus(80, 32, 0.3)),
                                                  curvature_field(2000, anisotropic), "torus");
     for (const std::size_t n : {1500, 1800, 2200, 2700})
-      expect_number_of_vertices(torus, curvature_field(n, anisotropic), "adapted torus, " + std::to_string(n) + " vertices,");
+      expect_number_of_vertices(torus, curvature_field(n, anisotropic), "adapted torus, " + std::to_string(n));
   }
 }
 
@@ -720,7 +721,8 @@ TEST(Number_of_vertices, is_met_within_the_bounds_of_the_sizes)
     EXPECT_GE(smallest_size(tensors), field.hmin * (anisotropic ? 0.85 : 1 - 1e-9)); // intersections
     std::size_t outside = 0; // of what edges in range may measure
     for (const auto e : adapted.edges()) {
-      const double l = std::sqrt(CGAL::squared_distance(adapted.point(adapted.vertex(e, 0)), adapted.point(adapted.vertex(e, 1))));
+      const auto &a = adapted.point(adapted.vertex(e, 0)), &b = adapted.point(adapted.vertex(e, 1));
+      const double l = std::sqrt(CGAL::squared_distance(a, b));
       outside += l < field.hmin * std::sqrt(0.5) || l > field.hmax * std::sqrt(2.0) ? 1 : 0;
     }
     EXPECT_LT(double(outside), 0.01 * double(adapted.number_of_edges()));

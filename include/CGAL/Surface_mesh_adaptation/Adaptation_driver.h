@@ -35,8 +35,8 @@ public:
     , relocation_(execution, surface, {})
   {}
 
-  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, a few more in a scaled metric, several
-  /// times.
+  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, a few more in a scaled metric,
+  /// several times.
   Adaptation_report run(std::size_t rounds, double number_of_vertices = 0)
   {
     const auto start = std::chrono::steady_clock::now();
@@ -86,8 +86,8 @@ private:
     return report_.after_round.empty() ? report_.initial : report_.after_round.back();
   }
 
-  /// Lets the kernels work in a finer or coarser metric until the mesh has about `n` vertices: how many it has depends on
-  /// how well it can fit the metric and, as lengths may vary, on the input. The metric itself stays as it is.
+  /// Lets the kernels work in a finer or coarser metric until the mesh has about `n` vertices: how many it has depends
+  /// on how well it can fit the metric and, as lengths may vary, on the input. The metric itself stays as it is.
   void meet_number(double n)
   {
     double scale = 0; // its logarithm

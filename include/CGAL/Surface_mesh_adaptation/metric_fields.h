@@ -290,8 +290,8 @@ void with_vertex_metric(const Execution& execution, const Intersection_metric_fi
   else use_scaled<double>(execution, reference, metric, field.vertices, 1, use);
 }
 
-/// The number of vertices that a field asks for or, where its bounds forbid that, that of its `values` at the vertices; 0:
-/// any.
+/// The number of vertices that a field asks for or, where its bounds forbid that, that of its `values` at the vertices;
+/// 0: any.
 template <class Execution, class Field, class Reference, class Value>
 double attainable_number_of_vertices(const Execution& execution, const Field& field, const Reference& reference,
                                      const std::vector<Value>& values)
