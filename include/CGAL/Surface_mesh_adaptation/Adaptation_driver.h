@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -34,19 +35,18 @@ public:
     , relocation_(execution, surface, {})
   {}
 
-  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, the metric is scaled and a few
-  /// more
-  /// follow, several times.
-  Adaptation_report run(std::size_t rounds, std::size_t number_of_vertices = 0)
+  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, a few more in a scaled metric,
+  /// several times.
+  Adaptation_report run(std::size_t rounds, double number_of_vertices = 0)
   {
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
     if (report_.initial.in_range > adapted_share) relocation_.expect_adapted();
     find_work();
     do_rounds(rounds, report_.initial);
-    if (number_of_vertices > 0) meet_number(double(number_of_vertices));
+    if (number_of_vertices > 0) meet_number(number_of_vertices);
     refinement_.compact();
-    report_.final = current();
+    report_.final = number_of_vertices > 0 ? mesh_statistics(execution_, surface_) : current();
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report_;
   }
@@ -86,24 +86,41 @@ private:
     return report_.after_round.empty() ? report_.initial : report_.after_round.back();
   }
 
-  /// Scales the metric until the mesh has about `n` vertices, by the secant of the logarithms: a mesh whose edges are all
-  /// well in range answers late, and then a step further than the number that is missing is needed.
+  /// Lets the kernels work in a finer or coarser metric until the mesh has about `n` vertices: how many it has depends
+  /// on how well it can fit the metric and, as lengths may vary, on the input. The metric itself stays as it is.
   void meet_number(double n)
   {
-    double answer = 1; // of the logarithm of the number to that of the scale
-    double scale = 0;
+    double scale = 0; // its logarithm
     for (int i = 0; i < max_corrections && !report_.stopped; ++i) {
-      const double missing = std::log(n / double(current().vertices));
-      if (std::abs(missing) < budget_precision) break;
-      const double wanted = std::clamp(missing / answer, -largest_step, largest_step);
+      const double missing = n - double(current().vertices), gap = std::log(n / double(current().vertices));
+      if (std::abs(gap) < budget_precision) break;
+      const double effective = least_effective_step(missing);
+      const double wanted = missing > 0 ? (std::max)(gap, effective) : (std::min)(gap, effective);
       const double step = std::clamp(scale + wanted, -largest_scale, largest_scale) - scale;
       if (step == 0) break;
       surface_.scale_metric(execution_, std::exp(step));
       scale += step;
       find_work();
       do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
-      answer = std::clamp((missing - std::log(n / double(current().vertices))) / step, least_answer, 1.0);
     }
+    surface_.scale_metric(execution_, std::exp(-scale));
+  }
+
+  /// The logarithm of the scale at which as many edges leave the range as vertices are `missing`, or too many: a mesh
+  /// whose edges are all well in range does not answer to less.
+  double least_effective_step(double missing) const
+  {
+    const Mesh_view& mesh = surface_.mesh;
+    std::vector<double> lengths = gather<double>(execution_, mesh.number_of_faces(), default_chunk_length,
+                                                 [&](std::size_t begin, std::size_t end, std::vector<double>& list) {
+      for (std::size_t h = 3 * begin; h < 3 * end; ++h)
+        if (!mesh.is_removed_face(Mesh_view::face(Index(h))) && mesh.is_edge_owner(Index(h)))
+          list.push_back(surface_.length(Index(h)));
+    });
+    const auto n = std::ptrdiff_t((std::min)(std::abs(missing), double(lengths.size() - 1)));
+    const auto nth = missing > 0 ? lengths.end() - 1 - n : lengths.begin() + n;
+    std::nth_element(lengths.begin(), nth, lengths.end());
+    return 2 * std::log((missing > 0 ? max_unit_length : min_unit_length) / *nth);
   }
 
   /// At most `rounds`, while they gain something on `before`.
@@ -198,9 +215,7 @@ private:
   static constexpr double refine_share = 0.01;           // a sweep rewrites the mesh, even for a single edge, so
   static constexpr double first_refine_share = 0.0015;   // a few edges wait for the first sweep of the next round
   static constexpr int max_corrections = 4;              // of the metric, for a number of vertices
-  static constexpr double largest_step = 0.15;           // each, and all together, of the logarithm of the scale
-  static constexpr double largest_scale = 0.3;
-  static constexpr double least_answer = 0.5;
+  static constexpr double largest_scale = 0.6;           // of the metric meanwhile, its logarithm
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
   static constexpr double adapted_share = 0.95;          // of the edges in range

@@ -52,7 +52,7 @@ struct Adaptation_report
   bool stopped = false;            ///< by the visitor
   std::size_t fallback_patches = 0; ///< faces of the input over which the surface is less smooth than elsewhere
   std::vector<Kernel_report> kernels;
-  std::vector<Mesh_statistics> after_round;
+  std::vector<Mesh_statistics> after_round; ///< in its metric: scaled, where a number of vertices was missed
   double tolerance = 0;            ///< largest distance allowed between input and output; 0: none was asked for
   double certified_distance = 0;   ///< if one was: an upper bound of their Hausdorff distance, by 2 % of it too large
                                    ///< at most

@@ -59,7 +59,8 @@ public:
 
   /// \throws Invalid_metric_error for a size that is not positive and finite
   template <class Execution>
-  Metric_background(const Execution& execution, std::vector<double> sizes) : sizes_(std::move(sizes))
+  Metric_background(const Execution& execution, std::vector<double> sizes, double number_of_vertices = 0)
+    : sizes_(std::move(sizes)), number_of_vertices_(number_of_vertices)
   {
     const std::size_t bad = internal::first_invalid(execution, sizes_.size(), [&](std::size_t v) {
       return internal::is_valid_size(sizes_[v]);
@@ -68,6 +69,9 @@ public:
   }
 
   explicit Metric_background(Formula formula) : formula_(std::move(formula)) {}
+
+  /// The number of vertices that an adapted mesh is to have; 0: any.
+  double number_of_vertices() const { return number_of_vertices_; }
 
   template <class Reference>
   Isotropic_metric at(const Reference& reference, const Location& l, const Surface_point& p) const
@@ -86,6 +90,7 @@ public:
 private:
   double uniform_ = 0;
   std::vector<double> sizes_;
+  double number_of_vertices_ = 0;
   Formula formula_;
 };
 
@@ -99,8 +104,9 @@ public:
 
   /// \throws Invalid_metric_error for a tensor that is not finite and positive definite
   template <class Execution>
-  Metric_background(const Execution& execution, const std::vector<Metric_tensor_3>& tensors)
-    : logarithms_(tensors.size())
+  Metric_background(const Execution& execution, const std::vector<Metric_tensor_3>& tensors,
+                    double number_of_vertices = 0)
+    : logarithms_(tensors.size()), number_of_vertices_(number_of_vertices)
   {
     const std::size_t bad = internal::first_invalid(execution, tensors.size(), [&](std::size_t v) {
       return is_positive_definite(tensors[v]);
@@ -110,6 +116,9 @@ public:
   }
 
   explicit Metric_background(Formula formula) : formula_(std::move(formula)) {}
+
+  /// The number of vertices that an adapted mesh is to have; 0: any.
+  double number_of_vertices() const { return number_of_vertices_; }
 
   template <class Reference>
   Anisotropic_metric at(const Reference& reference, const Location& l, const Surface_point& p) const
@@ -134,6 +143,7 @@ public:
 
 private:
   std::vector<Metric_tensor_3> logarithms_;
+  double number_of_vertices_ = 0;
   Formula formula_;
 };
 

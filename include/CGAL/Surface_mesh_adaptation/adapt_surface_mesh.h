@@ -25,7 +25,7 @@ Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, cons
   auto visitor_parameter = choose(np, CGAL::internal_np::visitor, std::ref(nothing));
   auto& visitor = unwrap(visitor_parameter);
   return adapt_in_place(execution, mesh, field, np, [&](const auto& policy, auto& surface) {
-    return Adaptation_driver(policy, surface, visitor).run(rounds, number_of_vertices(field, 0));
+    return Adaptation_driver(policy, surface, visitor).run(rounds, surface.background().number_of_vertices());
   });
 }
 

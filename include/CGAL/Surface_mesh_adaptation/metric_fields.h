@@ -290,6 +290,19 @@ void with_vertex_metric(const Execution& execution, const Intersection_metric_fi
   else use_scaled<double>(execution, reference, metric, field.vertices, 1, use);
 }
 
+/// The number of vertices that a field asks for or, where its bounds forbid that, that of its `values` at the vertices;
+/// 0: any.
+template <class Execution, class Field, class Reference, class Value>
+double attainable_number_of_vertices(const Execution& execution, const Field& field, const Reference& reference,
+                                     const std::vector<Value>& values)
+{
+  const double asked = double(number_of_vertices(field, 0));
+  if (asked == 0) return 0;
+  const Metric_complexity c = complexity(execution, reference.mesh, reference.points, reference.normals, values);
+  const double expected = (std::max)(4.0, expected_number_of_vertices(execution, reference.mesh, c));
+  return std::abs(std::log(expected / asked)) <= normalization_precision ? asked : expected;
+}
+
 /// `with_background(execution, field, imported, reference, use)` calls `use(background)` with the metric background
 /// that `field` stands for on the reference surface.
 template <class Execution, class Import, class Reference, class Use>
@@ -316,7 +329,8 @@ void with_background(const Execution& execution, const Field& field, const Impor
   with_vertex_metric(execution, field, imported, reference, [&](auto values) {
     using Value = typename decltype(values)::value_type;
     using Metric = std::conditional_t<std::is_same_v<Value, Metric_tensor_3>, Anisotropic_metric, Isotropic_metric>;
-    use(Metric_background<Metric>(execution, std::move(values)));
+    const double vertices = attainable_number_of_vertices(execution, field, reference, values);
+    use(Metric_background<Metric>(execution, std::move(values), vertices));
   });
 }
 

@@ -49,6 +49,9 @@ struct Metric_complexity
 /// square with a shock, up to 1.17 on mechanical parts with many ridges.
 constexpr double default_packing = 1.04;
 
+/// How closely a metric is scaled to a number of vertices: relative.
+constexpr double normalization_precision = 0.01;
+
 /// The number of vertices of a mesh with unit edges in a metric of this complexity: `2 packing C / sqrt(3)`, plus half
 /// the number of boundary edges and the Euler characteristic.
 template <class Execution>
@@ -279,16 +282,15 @@ std::vector<Value> normalize_to_vertex_count(const Execution& execution, const M
   // from where all sizes are hmax to where all are hmin
   const double low = -std::log(largest * metric.bounds.hmax * metric.bounds.hmax),
                high = (std::max)(low, std::log(1e12 / (least * metric.bounds.hmin * metric.bounds.hmin)));
-  constexpr double tolerance = 0.01;
   const double start = internal::solve_increasing([&](double log_scale) {
     internal::scale(execution, metric, std::exp(log_scale), values);
     return excess();
-  }, low, high, low, tolerance);
+  }, low, high, low, normalization_precision);
   if (!(metric.gradation > 1)) return values;
   internal::solve_increasing([&](double log_scale) {
     values = metric_at_scale<Value>(execution, mesh, points, normals, metric, std::exp(log_scale));
     return excess();
-  }, low, high, start, tolerance);
+  }, low, high, start, normalization_precision);
   return values;
 }
 
