@@ -83,6 +83,12 @@ public:
     return Excess::none;
   }
 
+  /// Whether a vertex may be that far from the surface.
+  bool is_within_distance(const Vector_3& way) const
+  {
+    return way.squaredNorm() <= limits_.distance * limits_.distance;
+  }
+
   /// Hands the points of the faces of `star` on. Writes the lists of these faces.
   /// \pre they are within the limits, and the edge is still to be collapsed
   void hand_over(const Merged_star& star, const Vector_3& p)

@@ -101,6 +101,7 @@ private:
     Mesh_view::Directed_edge edge;
     Vector_3 point; ///< of the vertex that is kept
     double cost;
+    Location location; ///< of that vertex on the reference, once the collapse is chosen
   };
 
   static constexpr double none = std::numeric_limits<double>::infinity();
@@ -142,7 +143,7 @@ private:
     is_held_[s] = 0;
     Ring<Collapse> collapses;
     if (surface_.vertex_class(s) != Vertex_class::corner) list_collapses(s, collapses);
-    for (const Collapse& c : collapses) {
+    for (Collapse& c : collapses) {
       least_cost_[s] = c.cost;
       if (c.cost > bound_) return {};
       if (!mesh_.is_collapsible(c.edge)) continue;
@@ -151,8 +152,10 @@ private:
       const Merged_star star(mesh_, c.edge);
       if (!is_valid(c, star)) continue;
       const Excess excess = represented_.excess(star, c.point);
-      if (excess == Excess::none) return c;
       if (excess == Excess::normal) is_held_[s] = 1;
+      if (excess != Excess::none) continue;
+      c.location = location_near(s, mesh_.kept_vertex(c.edge), c.point);
+      if (represented_.is_within_distance(surface_.reference().evaluate(c.location).position - c.point)) return c;
     }
     least_cost_[s] = none;
     return {};
@@ -186,7 +189,7 @@ private:
     const bool are_alike = surface_.vertex_class(s) == surface_.vertex_class(d);
     const Vector_3 guess = are_alike ? Vector_3((local(s) + local(d)) / 2) : local(d);
     const Vector_3 point = is_fixed ? local(d) : q.minimum(guess, attraction);
-    return {e, is_fixed ? surface_.points[d] : Vector_3(point + origin_), cost(q(point), q.area())};
+    return {e, is_fixed ? surface_.points[d] : Vector_3(point + origin_), cost(q(point), q.area()), {}};
   }
 
   /// Between the mean distance from the planes, by which the largest one is small, and the sum over the area, by which
@@ -236,9 +239,8 @@ private:
     const Index s = mesh_.vanishing_vertex(c.edge), d = mesh_.kept_vertex(c.edge);
     represented_.hand_over(Merged_star(mesh_, c.edge), c.point);
     quadrics_[d] += quadrics_[s];
-    const Location location = location_near(s, d, c.point);
     mesh_.collapse(c.edge);
-    surface_.set(d, surface_.place(location));
+    surface_.set(d, surface_.place(c.location));
     surface_.points[d] = c.point;
     mesh_.for_each_neighbor(d, [&](Index x) {
       if (least_cost_[x] == none) least_cost_[x] = bound_;
