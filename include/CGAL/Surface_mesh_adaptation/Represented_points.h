@@ -68,8 +68,8 @@ public:
     }, heavy_chunk_length);
   }
 
-  /// Which limit the points of the faces of `star` exceed if its edge is collapsed and `p` becomes the place of the vertex
-  /// that is kept.
+  /// Which limit the points of the faces of `star` exceed if its edge is collapsed and the vertex that is kept comes to
+  /// be at `p`.
   Excess excess(const Merged_star& star, const Vector_3& p) const
   {
     const New_faces faces = new_faces(star, p);

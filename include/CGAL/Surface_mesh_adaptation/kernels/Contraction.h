@@ -42,7 +42,7 @@ public:
   Contraction(const Execution& execution, Surface& surface, const Simplification_thresholds& thresholds,
               Represented_points<Surface>& represented)
     : execution_(execution), surface_(surface), mesh_(surface.mesh), thresholds_(thresholds), represented_(represented)
-    , origin_(surface.points[0])
+    , origin_(mesh_.number_of_vertices() > 0 ? surface.points[0] : Vector_3::Zero())
   {
     fill(execution, least_cost_, mesh_.number_of_vertices(), 0.0);
     fill(execution, is_held_, mesh_.number_of_vertices(), std::uint8_t(0));
@@ -108,7 +108,7 @@ private:
   static constexpr std::uint32_t max_border_rounds = 8; // what is left then is examined by the next sweep
   static constexpr double precision = 0.02;   // of a location, of the length of the edge
   static constexpr double min_turn = 0.3;     // cosine between a face and what replaces it
-  static constexpr double attraction = 1e-7;  // of the middle of an edge, of that of the planes: where these leave it open
+  static constexpr double attraction = 1e-7;  // of the middle of an edge, of that of the planes
 
   /// The planes of the faces around `v` and, through feature edges, those across them.
   Quadric_3 quadric_of_star(Index v) const
@@ -200,7 +200,8 @@ private:
   {
     const Index s = mesh_.vanishing_vertex(c.edge), d = mesh_.kept_vertex(c.edge);
     if (surface_.vertex_class(s) == Vertex_class::curve && !is_curve_preserved(surface_, s, d)) return false;
-    double quality_limit = thresholds_.min_quality, alignment_limit = min_alignment, length_limit = thresholds_.max_length;
+    double quality_limit = thresholds_.min_quality, alignment_limit = min_alignment;
+    double length_limit = thresholds_.max_length;
     for (const Merged_star::Face& f : star.faces()) {
       const Index v = mesh_.source(f.halfedge), x = mesh_.target(f.halfedge), y = mesh_.apex(f.halfedge);
       quality_limit = (std::min)(quality_limit, surface_.quality(v, x, y));
@@ -254,11 +255,13 @@ private:
     const Location &of_s = surface_.locations[s], &of_d = surface_.locations[d];
     const Vector_3 way = surface_.points[d] - surface_.points[s];
     if (of_s.kind != of_d.kind) return of_d;
+    const auto& reference = surface_.reference();
     if (of_s.kind == Vertex_class::smooth)
-      return surface_.reference().locate({of_d, {surface_.points[d], surface_.normals[d]}}, p, precision * way.norm()).location;
-    const auto arc = surface_.reference().arc(of_d.cell, of_s, of_d);
-    const double t = way.squaredNorm() > 0 ? std::clamp((p - surface_.points[s]).dot(way) / way.squaredNorm(), 0.0, 1.0) : 1;
-    return surface_.reference().on_curve(of_d.cell, (1 - t) * arc.first + t * arc.second);
+      return reference.locate({of_d, {surface_.points[d], surface_.normals[d]}}, p, precision * way.norm()).location;
+    const auto arc = reference.arc(of_d.cell, of_s, of_d);
+    const double squared_length = way.squaredNorm();
+    const double t = squared_length > 0 ? std::clamp((p - surface_.points[s]).dot(way) / squared_length, 0.0, 1.0) : 1;
+    return reference.on_curve(of_d.cell, (1 - t) * arc.first + t * arc.second);
   }
 
   void sweep_border(std::vector<Index>& vertices, std::uint32_t round, Sweep_counts& counts)
