@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Simplification within limits on distances and normals: that it keeps them, uses them up, and comes nearer to the
-// input
+// Simplification within limits on distances and normals: that it keeps them, uses them up, and comes nearer to the input
 // than quadric errors do.
 
 #include "checks.h"
@@ -10,6 +9,8 @@
 #include "real_meshes.h"
 #include "shapes.h"
 
+#include <CGAL/Surface_mesh_adaptation/Quadric_3.h>
+#include <CGAL/Surface_mesh_adaptation/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/internal/closest_point.h>
 #include <CGAL/Surface_mesh_adaptation/simplify.h>
 
@@ -60,6 +61,38 @@ TEST(Closest_point_of_triangle, is_closer_than_any_other_point)
         least = (std::min)(least, (p - a - j / 20.0 * (b - a) - k / 20.0 * (c - a)).norm());
     EXPECT_LE(found.offset.norm(), least + 1e-12);
   }
+}
+
+TEST(Prepared_triangle, knows_the_distance_of_the_closest_point)
+{
+  shapes::Random random(8);
+  for (int i = 0; i < 2000; ++i) {
+    const Vector_3 a = random.vector(), b = random.vector(), c = random.vector(), p = 2 * random.vector();
+    const double exact = SMA::internal::closest_point_of_triangle(p, a, b, c).offset.squaredNorm();
+    const SMA::internal::Prepared_triangle triangle({a, b, c});
+    EXPECT_NEAR(triangle.squared_distance(p, std::numeric_limits<double>::infinity()).squared, exact, 1e-12);
+    EXPECT_LT(triangle.squared_distance(p, exact / 2).squared, exact + 1e-12);
+    EXPECT_GE(triangle.squared_distance(p, exact / 2).squared, exact / 2);
+  }
+}
+
+TEST(Quadric_3, is_the_sum_of_squared_distances_and_least_where_planes_meet)
+{
+  shapes::Random random(9);
+  for (int i = 0; i < 200; ++i) {
+    const Vector_3 corner = random.vector(), p = random.vector();
+    SMA::Quadric_3 one, other;
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Vector_3 n = (Vector_3::Unit(k) + 0.3 * random.vector()).normalized();
+      (k < 2 ? one : other).add_plane(corner, n, k + 1.0);
+      sum += (k + 1) * std::pow(n.dot(p - corner), 2);
+    }
+    one += other;
+    EXPECT_NEAR(one(p), sum, 1e-12);
+    EXPECT_LT((one.minimum(p, 1e-13) - corner).norm(), 1e-9);
+  }
+  EXPECT_EQ(SMA::Quadric_3().minimum(Vector_3(1, 2, 3), 1e-7), Vector_3(1, 2, 3));
 }
 
 TEST(Simplify_within_limits, keeps_normals_and_uses_the_limit_up)
@@ -134,10 +167,17 @@ TEST(Simplify_within_limits, comes_nearer_than_quadric_errors_at_the_same_number
     Mesh mesh;
     double distance; ///< of the diagonal
   };
-  for (const Case& c : {Case{"sphere", shapes::mesh<Mesh>(shapes::sphere(5, 0.3)), 1e-3},
-                        Case{"torus", shapes::mesh<Mesh>(shapes::torus(170, 60, 0.3)), 1e-3},
-                        Case{"fandisk", real_mesh<Mesh>("fandisk"), 5e-4},
-                        Case{"anchor_dense", real_mesh<Mesh>("anchor_dense"), 1e-3}}) {
+  constexpr double none = 1;
+  Soup ellipsoid = shapes::sphere(5, 0.3);
+  for (Vector_3& p : ellipsoid.points) p = p.cwiseProduct(Vector_3(1, 0.7, 0.5));
+  for (const Case& c : {Case{"sphere", shapes::mesh<Mesh>(shapes::sphere(5, 0.3)), none},
+                        Case{"ellipsoid", shapes::mesh<Mesh>(ellipsoid), none},
+                        Case{"torus", shapes::mesh<Mesh>(shapes::torus(170, 60, 0.3)), none},
+                        Case{"torus", shapes::mesh<Mesh>(shapes::torus(170, 60, 0.3)), 5e-4},
+                        Case{"elephant", real_mesh<Mesh>("elephant"), none},
+                        Case{"fandisk", real_mesh<Mesh>("fandisk"), none},
+                        Case{"anchor_dense", real_mesh<Mesh>("anchor_dense"), none},
+                        Case{"rotor_small", real_mesh<Mesh>("rotor_small"), none}}) {
     SCOPED_TRACE(c.name);
     const distances::Original original(c.mesh);
     Mesh ours = c.mesh;
@@ -147,7 +187,7 @@ TEST(Simplify_within_limits, comes_nearer_than_quadric_errors_at_the_same_number
     const Mesh theirs = distances::simplified<distances::Plane_quadrics>(c.mesh, num_vertices(ours));
     const auto a = original.distance_to(ours, 50000), b = original.distance_to(theirs, 50000);
     EXPECT_LT(a.largest, b.largest);
-    EXPECT_LT(a.rms, 0.95 * b.rms);
+    EXPECT_LT(a.rms, 0.97 * b.rms);
   }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The points of the reference that the faces of a simplified mesh stand for: of each face of the input its corners, the
-// middles of its edges and its centroid. A collapse hands the points of the faces that it changes on to the nearest of
-// the new ones. So what is known of distances and normals is measured, however many collapses there were.
+// The points of the reference that the faces of a simplified mesh stand for: of each face of the input its corners and
+// its centroid. A collapse hands the points of the faces that it changes on to the new ones. So what is known of
+// distances and normals is measured, however many collapses there were.
 //
 // Each face has a list of its points, linked through them. Points at features are there once for each side and stay
 // with it: a face of another side may be nearer and yet say nothing about theirs.
@@ -12,7 +12,9 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/Merged_star.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/internal/closest_point.h>
 
 #include <algorithm>
@@ -31,12 +33,13 @@ struct Deviation_limits
   double min_cosine = -1;                                     ///< between its normal and those of the input
 };
 
+/// Which limit is exceeded.
+enum class Excess { none, distance, normal };
+
 template <class Surface>
 class Represented_points
 {
 public:
-  static constexpr double too_much = std::numeric_limits<double>::infinity();
-
   /// The faces of `surface` stand for themselves. Work: O(n).
   template <class Execution>
   Represented_points(const Execution& execution, const Surface& surface, const Deviation_limits& limits)
@@ -46,65 +49,85 @@ public:
     first_.resize(n);
     normals_.resize(n);
     Buffer<Index> offset;
-    const std::size_t others = exclusive_scan(execution, n, offset, [&](std::size_t f) {
+    const std::size_t corners = exclusive_scan(execution, n, offset, [&](std::size_t f) {
       Index count = 0;
-      for_each_other_point(Index(f), [&](double, double, double) { ++count; });
+      for_each_listed_corner(Index(f), [&](Index, double, double) { ++count; });
       return count;
     });
-    next_.resize(n + others);
-    points_.resize(n + others);
-    weights_.resize(n + others);
+    next_.resize(n + corners);
+    points_.resize(n + corners);
+    weights_.resize(n + corners);
     for_each_index(execution, n, [&](std::size_t f) {
       normals_[f] = surface_.normal(Index(3 * f));
       first_[f] = no_index;
       Index i = Index(n) + offset[f];
-      for_each_other_point(Index(f), [&](double u, double v, double weight) { add(i++, Index(f), u, v, weight); });
-      add(Index(f), Index(f), 1.0 / 3, 1.0 / 3, 9.0 / 20 * area(Index(3 * f)));
+      for_each_listed_corner(Index(f), [&](Index h, double u, double v) {
+        add(i++, Index(f), u, v, weight_of_corner * area_of_side(h));
+      });
+      add(Index(f), Index(f), 1.0 / 3, 1.0 / 3, weight_of_centroid * area(Index(3 * f)));
     }, heavy_chunk_length);
   }
 
-  /// How far the collapse of `e` takes the points around the vanishing vertex from their faces: between the largest
-  /// distance, which large faces decide, and the mean square over the area, which many do: their geometric mean.
-  /// `too_much` if a limit is exceeded or the cost reaches `enough`.
-  double cost(const Mesh_view::Directed_edge& e, double enough) const
+  /// Which limit the points of the faces of `star` exceed if its edge is collapsed and the vertex that is kept comes to
+  /// be at `p`.
+  Excess excess(const Merged_star& star, const Vector_3& p) const
   {
-    const Star star(surface_, e);
-    const double product_limit = enough * enough * (enough * enough);
-    double largest = 0, sum = 0;
-    for (const Side_face& old : star.old_faces)
-      for (Index i = first_[old.face]; i != no_index; i = next_[i]) {
-        const auto nearest = star.nearest(points_[i], old.side);
-        if (nearest.first == nullptr || !is_within_limits(i, nearest.first->normal, nearest.second)) return too_much;
-        largest = (std::max)(largest, nearest.second);
-        sum += weights_[i] * nearest.second;
-        if (largest * sum >= product_limit) return too_much;
+    const New_faces faces = new_faces(star, p);
+    std::size_t hint = 0;
+    for (const Merged_star::Face& old : star.faces())
+      for (Index i = first_[Mesh_view::face(old.halfedge)]; i != no_index; i = next_[i]) {
+        const auto nearest = faces.nearest(points_[i], old.side, hint);
+        if (nearest.first == nullptr || nearest.second > limits_.distance * limits_.distance) return Excess::distance;
+        if (!is_normal_within_limits(i, nearest.first->normal())) return Excess::normal;
       }
-    return std::sqrt(std::sqrt(largest * sum));
+    return Excess::none;
   }
 
-  /// Hands the points around the vanishing vertex of `e` on. Writes the lists of the faces there.
-  /// \pre the cost of `e` is within the limits, and `e` is still to be collapsed
-  void hand_over(const Mesh_view::Directed_edge& e)
+  /// Whether a vertex may be that far from the surface.
+  bool is_within_distance(const Vector_3& way) const
   {
-    const Star star(surface_, e);
+    return way.squaredNorm() <= limits_.distance * limits_.distance;
+  }
+
+  /// Hands the points of the faces of `star` on. Writes the lists of these faces.
+  /// \pre they are within the limits, and the edge is still to be collapsed
+  void hand_over(const Merged_star& star, const Vector_3& p)
+  {
+    const New_faces faces = new_faces(star, p);
+    std::size_t hint = 0;
     Ring<std::pair<Index, Index>> moves;
-    for (const Side_face& old : star.old_faces) {
-      for (Index i = first_[old.face]; i != no_index; i = next_[i])
-        moves.emplace_back(i, star.nearest(points_[i], old.side).first->face);
-      first_[old.face] = no_index;
+    for (const Merged_star::Face& old : star.faces()) {
+      Index& first = first_[Mesh_view::face(old.halfedge)];
+      for (Index i = first; i != no_index; i = next_[i])
+        moves.emplace_back(i, faces.nearest(points_[i], old.side, hint).first->face);
+      first = no_index;
     }
     for (const auto& m : moves) link(m.first, m.second);
   }
 
-  /// Whether all points of face `f` are within the limits.
-  bool are_within_limits(Index f) const
+  /// Whether all points of face `f` are within the limits and no further away than `max_distance`.
+  bool are_within_limits(Index f, double max_distance) const
   {
-    const std::array<Vector_3, 3> p = corners(f);
-    const Vector_3 normal = surface_.normal(3 * f);
+    const internal::Prepared_triangle face(corners(f));
+    const double limit = (std::min)(limits_.distance, max_distance);
     for (Index i = first_[f]; i != no_index; i = next_[i])
-      if (!is_within_limits(i, normal, internal::closest_point_of_triangle(points_[i], p[0], p[1], p[2]).offset.squaredNorm()))
+      if (face.squared_distance(points_[i], none).squared > limit * limit || !is_normal_within_limits(i, face.normal()))
         return false;
     return true;
+  }
+
+  /// The largest distance of a point from its face.
+  template <class Execution>
+  double largest_distance(const Execution& execution) const
+  {
+    return std::sqrt(reduce(execution, mesh_.number_of_faces(), 0.0, [&](std::size_t f) {
+      if (mesh_.is_removed_face(Index(f))) return 0.0;
+      const internal::Prepared_triangle face(corners(Index(f)));
+      double largest = 0;
+      for (Index i = first_[f]; i != no_index; i = next_[i])
+        largest = (std::max)(largest, face.squared_distance(points_[i], none).squared);
+      return largest;
+    }, [](double a, double b) { return (std::max)(a, b); }));
   }
 
   /// Calls `g(closest, weight)` for the points of face `f`.
@@ -117,78 +140,63 @@ public:
   }
 
 private:
-  struct Side_face
+  static constexpr double none = std::numeric_limits<double>::infinity();
+  static constexpr double weight_of_corner = 1.0 / 12, weight_of_centroid = 3.0 / 4; // exact for quadratic functions
+
+  /// A face as it will be.
+  struct New_face : internal::Prepared_triangle
   {
     Index face;
     int side;
   };
 
-  struct New_face : Side_face
+  struct New_faces
   {
-    std::array<Vector_3, 3> corners;
-    Vector_3 normal;
-  };
+    Ring<New_face> faces;
 
-  /// The faces around a vertex before and after its collapse, and on which side of the curve through it they are.
-  struct Star
-  {
-    Ring<Side_face> old_faces;
-    Ring<New_face> new_faces;
-
-    Star(const Surface& surface, const Mesh_view::Directed_edge& e)
+    /// A face on `side` that `p` lies above, or else the nearest one, or null if there is none there; and the squared
+    /// distance. What is above one face could be nearer to another only at a fold.
+    /// The search starts at `hint`, which is set: points that follow each other are mostly above the same face.
+    std::pair<const New_face*, double> nearest(const Vector_3& p, int side, std::size_t& hint) const
     {
-      const Mesh_view& mesh = surface.mesh;
-      const Index s = mesh.vanishing_vertex(e), d = mesh.kept_vertex(e), first = mesh.outgoing[s];
-      int side = 0, sides = 0;
-      mesh.for_each_outgoing(s, [&](Index h) { sides += mesh.is_feature(h) ? 1 : 0; });
-      const bool is_closed = !mesh.is_border(first);
-      mesh.for_each_outgoing(s, [&](Index h) {
-        if (h != first && mesh.is_feature(h)) ++side;
-        // around a closed fan, what comes before the first feature edge is on the side of the last
-        const int own = is_closed && !mesh.is_feature(first) && side == sides ? 0 : side;
-        const Index f = Mesh_view::face(h), x = mesh.target(h), y = mesh.apex(h);
-        old_faces.push_back({f, own});
-        if (x == d || y == d) return;
-        const Vector_3 &p = surface.points[d], &q = surface.points[x], &r = surface.points[y];
-        new_faces.push_back({{f, own}, {p, q, r}, surface.normal(d, x, y)});
-      });
-    }
-
-    /// The nearest new face on `side`, or null, and the squared distance.
-    std::pair<const New_face*, double> nearest(const Vector_3& p, int side) const
-    {
-      std::pair<const New_face*, double> best{nullptr, too_much};
-      for (const New_face& f : new_faces) {
+      std::pair<const New_face*, double> best{nullptr, none};
+      for (std::size_t n = faces.size(), i = hint; n > 0; --n, i = i + 1 < faces.size() ? i + 1 : 0) {
+        const New_face& f = faces[i];
         if (f.side != side) continue;
-        const auto closest = internal::closest_point_of_triangle(p, f.corners[0], f.corners[1], f.corners[2]);
-        const double squared_distance = closest.offset.squaredNorm();
+        const auto [squared_distance, is_above] = f.squared_distance(p, best.second);
+        if (is_above) {
+          hint = i;
+          return {&f, squared_distance};
+        }
         if (squared_distance < best.second) best = {&f, squared_distance};
       }
       return best;
     }
   };
 
-  /// Only the centroids, of which the numbers are those of their faces, know a normal.
-  bool is_within_limits(Index i, const Vector_3& normal, double squared_distance) const
+  New_faces new_faces(const Merged_star& star, const Vector_3& p) const
   {
-    if (squared_distance > limits_.distance * limits_.distance) return false;
+    New_faces result;
+    for (const Merged_star::Face& f : star.faces()) {
+      if (f.vanishes) continue;
+      const Vector_3 &q = surface_.points[mesh_.target(f.halfedge)], &r = surface_.points[mesh_.apex(f.halfedge)];
+      result.faces.push_back({internal::Prepared_triangle({p, q, r}), Mesh_view::face(f.halfedge), f.side});
+    }
+    return result;
+  }
+
+  /// Only the centroids, of which the numbers are those of their faces, know a normal.
+  bool is_normal_within_limits(Index i, const Vector_3& normal) const
+  {
     return i >= normals_.size() || normals_[i] == Vector_3::Zero() || normals_[i].dot(normal) >= limits_.min_cosine;
   }
 
-  /// Calls `g(u, v, weight)` for the corners and middles of edges that are listed with face `f`, each of which is
-  /// listed once for each side. The weights, with 9/20 for the centroid, integrate cubic functions over a triangle.
+  /// Calls `g(h, u, v)` for the corners, sources of `h`, that are listed with face `f`: each once for each side.
   template <class G>
-  void for_each_other_point(Index f, const G& g) const
+  void for_each_listed_corner(Index f, const G& g) const
   {
-    for (Index i = 0; i < 3; ++i) {
-      const Index h = 3 * f + i, t = mesh_.twin[h];
-      const bool has_two_sides = mesh_.is_feature(h) || t == no_index;
-      if (has_two_sides || mesh_.is_edge_owner(h)) {
-        const double weight = 2.0 / 15 * (area(h) + (has_two_sides ? 0 : area(t)));
-        g(i == 2 ? 0 : 0.5, i == 0 ? 0 : 0.5, weight);
-      }
-      if (leads_its_side(h)) g(i == 1 ? 1 : 0, i == 2 ? 1 : 0, 1.0 / 20 * area_of_side(h));
-    }
+    for (Index i = 0; i < 3; ++i)
+      if (leads_its_side(3 * f + i)) g(3 * f + i, i == 1 ? 1 : 0, i == 2 ? 1 : 0);
   }
 
   /// Whether `h` is the first halfedge of its side of the curves through its source.

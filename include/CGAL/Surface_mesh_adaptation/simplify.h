@@ -40,10 +40,11 @@ Deviation_limits deviation_limits(const NamedParameters& np)
 Collapses the edges that are shorter than `1/sqrt 2` in the metric where that makes no edge too long, no face bad and
 keeps the features (paper, section 5).
 
-With a limit on the normals or on the distance, the collapses that cost least of it go first, and go on until
-the limits allow no more; then the vertices, but for corners, are moved off the surface a little, so that the faces run
-through it instead of touching it from one side: that takes half of the largest error and more of the mean away. A large
-metric leaves everything to the limits.
+With a limit on the normals or on the distance, the collapses that cost least by quadric errors go first, each to the
+place that is best by these, and go on until the limits allow no more, or until that on the normals holds a fifth of the
+vertices: to go on would save few others, at an error that grows ever faster. In the end the vertices, but for corners, are
+fitted to the surface, so that the faces run through it instead of touching it from one side. A large metric leaves
+everything to the limits.
 
 \param execution, mesh, field, np as for `adapt_surface_mesh`; `number_of_iterations` is the largest number of sweeps
        (default: 24, or with limits as many as it takes), and the visitor's `go_on` is asked after each of them. Beside:
@@ -56,8 +57,8 @@ metric leaves everything to the limits.
     \cgalParamDefault{no limit}
   \cgalParamNEnd
   \cgalParamNBegin{maximum_distance}
-    \cgalParamDescription{the largest distance between the surface, at the vertices, middles of the edges and centroids of
-                          the faces of the input, and the faces that stand for these}
+    \cgalParamDescription{the largest distance between the surface, at the vertices and the centroids of the faces of the
+                          input, and the faces that stand for these}
     \cgalParamType{`double`, in the unit of the coordinates}
     \cgalParamDefault{no limit}
   \cgalParamNEnd

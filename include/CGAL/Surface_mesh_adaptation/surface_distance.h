@@ -41,33 +41,56 @@ inline double squared_distance_to_segment(const Vector_3& p, const Vector_3& a, 
 
 namespace internal {
 
-/// A triangle, which may be degenerate, prepared for the distances of several points. It must live as long.
-class Distance_to_triangle
+/// A triangle, which may be degenerate, of which the distance is asked for by many points.
+class Prepared_triangle
 {
 public:
-  explicit Distance_to_triangle(const Triangle_points& t)
-    : triangle_(t), normal_((t[1] - t[0]).cross(t[2] - t[0])), squared_area_(normal_.squaredNorm())
+  explicit Prepared_triangle(const Triangle_points& corners) : corners_(corners), normal_(Vector_3::Zero())
   {
-    for (std::size_t i = 0; i < 3; ++i) inward_[i] = normal_.cross(t[(i + 1) % 3] - t[i]);
+    const Vector_3 n = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    const double double_area = n.norm();
+    if (double_area > 0) normal_ = n / double_area;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector_3 out = (corners[(i + 1) % 3] - corners[i]).cross(normal_);
+      const double length = out.norm();
+      outwards_[i] = length > 0 ? Vector_3(out / length) : out;
+      offsets_[i] = outwards_[i].dot(corners[i] - corners[0]);
+    }
   }
 
-  /// The squared distance from `p`: what is next to it lies on an edge that it is beyond, or inside.
-  double squared(const Vector_3& p) const
+  /// The unit normal; zero if the triangle is degenerate.
+  const Vector_3& normal() const { return normal_; }
+
+  struct Distance
   {
+    double squared;
+    bool is_above;
+  };
+
+  /// The squared distance of `p` from the triangle, or some number that is not smaller than `enough` if it is not.
+  Distance squared_distance(const Vector_3& p, double enough = std::numeric_limits<double>::infinity()) const
+  {
+    const Vector_3 d = p - corners_[0];
+    const double height = normal_.dot(d);
+    const std::array<double, 3> beyond{outwards_[0].dot(d), outwards_[1].dot(d) - offsets_[1],
+                                       outwards_[2].dot(d) - offsets_[2]};
+    const double aside = (std::max)({beyond[0], beyond[1], beyond[2]});
+    const bool is_degenerate = normal_ == Vector_3::Zero();
+    if (aside <= 0 && !is_degenerate) return {height * height, true};
+    const double at_least = height * height + aside * aside; // that of the plane and of the line of an edge
+    if (at_least >= enough) return {at_least, false};
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 3; ++i)
-      if (!(squared_area_ > 0) || inward_[i].dot(p - triangle_[i]) < 0)
-        least = (std::min)(least, squared_distance_to_segment(p, triangle_[i], triangle_[(i + 1) % 3]));
-    if (least < std::numeric_limits<double>::infinity()) return least;
-    const double height = normal_.dot(p - triangle_[0]);
-    return height * height / squared_area_;
+    for (std::size_t i = 0; i < 3; ++i) // the closest point lies on an edge that `p` is beyond
+      if (beyond[i] > 0 || is_degenerate)
+        least = (std::min)(least, squared_distance_to_segment(p, corners_[i], corners_[(i + 1) % 3]));
+    return {least, false};
   }
 
 private:
-  const Triangle_points& triangle_;
+  Triangle_points corners_;
   Vector_3 normal_;
-  double squared_area_; // times four
-  std::array<Vector_3, 3> inward_;
+  std::array<Vector_3, 3> outwards_; // unit vectors in the plane, orthogonal to the edges
+  std::array<double, 3> offsets_;    // of the edges along them
 };
 
 } // namespace internal
@@ -75,7 +98,17 @@ private:
 /// Squared distance from `p` to a triangle, which may be degenerate.
 inline double squared_distance_to_triangle(const Vector_3& p, const Triangle_points& t)
 {
-  return internal::Distance_to_triangle(t).squared(p);
+  const Vector_3 n = (t[1] - t[0]).cross(t[2] - t[0]);
+  const double squared_area = n.squaredNorm();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector_3 &a = t[i], &b = t[(i + 1) % 3];
+    if (!(squared_area > 0) || n.dot((b - a).cross(p - a)) < 0)
+      least = (std::min)(least, squared_distance_to_segment(p, a, b));
+  }
+  if (least < std::numeric_limits<double>::infinity()) return least;
+  const double height = n.dot(p - t[0]);
+  return height * height / squared_area;
 }
 
 /// The triangles of a surface in a tree of bounding boxes: four in order along a Hilbert curve in a leaf, and half as
@@ -260,9 +293,9 @@ struct Triangle_piece
 
   double largest_squared_distance(const Triangle_points& to) const
   {
-    const Distance_to_triangle distance(to);
+    const Prepared_triangle triangle(to);
     double largest = 0;
-    for (const Vector_3& p : corners) largest = (std::max)(largest, distance.squared(p));
+    for (const Vector_3& p : corners) largest = (std::max)(largest, triangle.squared_distance(p).squared);
     return largest;
   }
 };

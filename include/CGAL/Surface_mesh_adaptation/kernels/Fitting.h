@@ -5,12 +5,12 @@
 // h^2 k / 6 and on average h^2 k / 8 inside of it where both curvatures are k, and fitted ones within h^2 k / 8 on both
 // sides and 0 on average.
 //
-// Least squares over the represented points of their distance from the faces, in the direction of the closest point,
-// and of the vertices from their places on the reference: one block Jacobi step of Gauss-Newton a sweep.
+// Least squares over the represented points of their distance from the faces, in the direction of the closest point:
+// damped block Jacobi steps of Gauss-Newton.
 //
 // Conflict neighbourhood: none. Phases: faces (normal equations of their corners), vertices (step), faces (limits).
 // Invariants: connectivity and locations; corners stay; no face comes to violate a limit or turns by more than 60
-// degrees.
+// degrees; the largest distance does not grow.
 // Work: O(represented points) a sweep; span: the points of a face.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H
@@ -34,18 +34,25 @@ template <class Surface, class Execution>
 class Fitting
 {
 public:
-  /// No vertex moves further than `max_move` from its place on the reference.
-  Fitting(const Execution& execution, Surface& surface, const Represented_points<Surface>& represented, double max_move)
-    : execution_(execution), surface_(surface), mesh_(surface.mesh), represented_(represented), max_move_(max_move)
+  Fitting(const Execution& execution, Surface& surface, const Represented_points<Surface>& represented)
+    : execution_(execution), surface_(surface), mesh_(surface.mesh), represented_(represented)
+  {}
+
+  /// Steps of all vertices, none of which takes a point nearly as far from its face as the farthest one is.
+  void sweep(int steps)
   {
-    places_ = surface.points;
+    max_distance_ = share_of_largest * represented_.largest_distance(execution_);
+    places_ = surface_.points;
+    for (int i = 0; i < steps; ++i) step();
   }
 
-  /// One step of all vertices.
-  void sweep()
+private:
+  void step()
   {
     equations_.resize(mesh_.number_of_halfedges());
-    for_each_face([&](Index f) { assemble(f); });
+    for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
+      if (!mesh_.is_removed_face(Index(f))) assemble(Index(f));
+    }, heavy_chunk_length);
     before_ = surface_.points;
     for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
       if (!mesh_.is_removed_vertex(Index(v)) && surface_.vertex_class(Index(v)) != Vertex_class::corner) step(Index(v));
@@ -53,20 +60,11 @@ public:
     while (take_back() > 0) {}
   }
 
-private:
   struct Equations
   {
     Matrix_3 matrix = Matrix_3::Zero();
     Vector_3 right_side = Vector_3::Zero();
   };
-
-  template <class F>
-  void for_each_face(const F& f) const
-  {
-    for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t i) {
-      if (!mesh_.is_removed_face(Index(i))) f(Index(i));
-    }, heavy_chunk_length);
-  }
 
   /// What the points of `f` ask of each of its corners while the two others stay.
   void assemble(Index f)
@@ -97,11 +95,11 @@ private:
     const double pull = attraction * e.matrix.trace();
     if (!(pull > 0)) return;
     e.matrix += pull * Matrix_3::Identity();
-    e.right_side += pull * (places_[v] - surface_.points[v]);
-    Vector_3 d = surface_.points[v] + damping * internal::Cholesky<3>(e.matrix).solve(e.right_side) - places_[v];
-    const double length = d.norm();
-    if (length > max_move_) d *= max_move_ / length;
-    if (std::isfinite(length)) surface_.points[v] = places_[v] + d;
+    const Vector_3 d = damping * internal::Cholesky<3>(e.matrix).solve(e.right_side);
+    if (!d.allFinite()) return;
+    const Vector_3 way = surface_.points[v] + d - places_[v];
+    const double length = way.norm(), longest = max_move * max_distance_;
+    surface_.points[v] = length > longest ? Vector_3(places_[v] + longest / length * way) : Vector_3(places_[v] + way);
   }
 
   /// Puts the corners of the faces that the last step made bad back to where they were; returns the number of these
@@ -130,10 +128,12 @@ private:
                            surface_.points[c] != before_[c];
     if (!has_moved) return false;
     const Vector_3 old = (before_[b] - before_[a]).cross(before_[c] - before_[a]);
-    return surface_.normal(3 * f).dot(old) < min_turn * old.norm() || !represented_.are_within_limits(f);
+    return surface_.normal(3 * f).dot(old) < min_turn * old.norm() || !represented_.are_within_limits(f, max_distance_);
   }
 
-  static constexpr double attraction = 0.1; // of a vertex to its place, of that to the points: it is a point, too
+  static constexpr double attraction = 0.1; // of a vertex to where it is, of that to the points
+  static constexpr double share_of_largest = 0.95; // faces that reach it stay: the largest distance does not grow
+  static constexpr double max_move = 0.5;   // of a vertex, in largest distances
   static constexpr double damping = 0.8;    // the block Jacobi iteration has eigenvalues from 1/2 to 2
   static constexpr double min_turn = 0.5;
 
@@ -141,7 +141,7 @@ private:
   Surface& surface_;
   const Mesh_view& mesh_;
   const Represented_points<Surface>& represented_;
-  double max_move_;
+  double max_distance_ = 0;
   Buffer<Vector_3> places_, before_;
   Buffer<Equations> equations_;
   Buffer<std::uint8_t> is_bad_;

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Simplification: removes the vertices at the end of edges that are too short in the metric by collapsing these
-// (paper, figure 2 and section 5): the shortest first, or, within limits on what a face may deviate from the points
-// that
-// it stands for, the cheapest of a vertex below a bound that rises from sweep to sweep.
+// (paper, figure 2 and section 5).
 //
 // Conflict neighbourhood of s -> d: the closed one-ring of s. The vertex d stays where it is, so nothing outside is
-// written; the design's brute-force trials and ours (test_mesh_view) found no invalid result. Where a face is not
-// flat, the
-// test for folds also looks at the faces behind the ring: if these may be changing, the vertex is put off.
+// written; the design's brute-force trials and ours (test_mesh_view) found no invalid result. Where a face is not flat,
+// the test for folds also looks at the faces behind the ring: if these may be changing, the vertex is put off.
 // Invariants: simplicial 2-manifold, components, genus, boundary cycles; corners stay; curve vertices vanish only
 // along their curve; no face turns away from the surface.
 // Work: O(active vertices) a sweep; span: the work of a block and the passes of the border.
@@ -17,9 +14,9 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SIMPLIFICATION_H
 
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
-#include <CGAL/Surface_mesh_adaptation/Represented_points.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/curve_collapse.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
@@ -46,26 +43,6 @@ public:
     : execution_(execution), surface_(surface), mesh_(surface.mesh), thresholds_(thresholds)
   {}
 
-  /// The same, limited by what faces may deviate from the points that they stand for, which it keeps up to date.
-  Simplification(const Execution& execution, Surface& surface, const Simplification_thresholds& thresholds,
-                 Represented_points<Surface>& represented)
-    : Simplification(execution, surface, thresholds)
-  {
-    represented_ = &represented;
-    fill(execution, least_cost_, mesh_.number_of_vertices(), 0.0);
-  }
-
-  /// Collapses that cost more wait. \pre points are represented
-  void set_bound(double cost) { bound_ = cost; }
-
-  /// The least cost of a collapse that waits for a higher bound, or infinity.
-  double next_cost() const
-  {
-    return reduce(execution_, mesh_.number_of_vertices(), Represented_points<Surface>::too_much, [&](std::size_t v) {
-      return mesh_.is_removed_vertex(Index(v)) ? Represented_points<Surface>::too_much : least_cost_[v];
-    }, [](double a, double b) { return (std::min)(a, b); });
-  }
-
   /// Examines every active vertex once. Returns the number of vertices removed.
   std::size_t sweep(Sweep_counts& counts)
   {
@@ -73,7 +50,7 @@ public:
     std::vector<Index> deferred = sweep_blocks(
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
-        if (mesh_.is_removed_vertex(v) || !is_due(v)) return;
+        if (mesh_.is_removed_vertex(v) || !is_active(surface_, v, Activity::simplify)) return;
         if (!block.contains_ring(mesh_, v)) return list.push_back(v);
         ++c.candidates;
         bool is_put_off = false;
@@ -90,7 +67,6 @@ public:
   void apply(const Mesh_view::Directed_edge& e)
   {
     mesh_.for_each_neighbor(mesh_.vanishing_vertex(e), [&](Index x) { activate(surface_, x); });
-    if (represented_ != nullptr) represented_->hand_over(e);
     mesh_.collapse(e);
   }
 
@@ -103,12 +79,11 @@ private:
   template <class IsSeen>
   Mesh_view::Directed_edge propose(Index s, const IsSeen& is_seen, bool& is_put_off)
   {
-    if (represented_ != nullptr) least_cost_[s] = Represented_points<Surface>::too_much;
     if (surface_.vertex_class(s) == Vertex_class::corner) return {};
     Ring<std::pair<double, Mesh_view::Directed_edge>> short_edges;
     const double limit = max_length_to_collapse(s, is_seen);
     const auto consider = [&](const Mesh_view::Directed_edge& e) {
-      if (surface_.is_shorter(mesh_.source(e.h), mesh_.target(e.h), limit) && may_slide_along(s, e.h))
+      if (surface_.is_shorter(mesh_.source(e.h), mesh_.target(e.h), limit) && may_slide_along(surface_, s, e.h))
         short_edges.emplace_back(surface_.length(e.h), e);
     };
     Index last = no_index;
@@ -120,26 +95,10 @@ private:
     std::sort(short_edges.begin(), short_edges.end(), [&](const auto& a, const auto& b) {
       return a.first < b.first || (a.first == b.first && mesh_.kept_vertex(a.second) < mesh_.kept_vertex(b.second));
     });
-    Mesh_view::Directed_edge best;
-    for (const auto& candidate : short_edges) {
-      const Mesh_view::Directed_edge& e = candidate.second;
-      if (!is_valid(e, is_seen, is_put_off)) continue;
-      if (represented_ != nullptr) {
-        const double cost = represented_->cost(e, least_cost_[s]);
-        if (!(cost < least_cost_[s])) continue;
-        least_cost_[s] = cost;
-      }
-      best = e;
-      if (represented_ == nullptr) break;
-    }
-    const bool is_affordable = represented_ == nullptr || least_cost_[s] <= bound_;
-    return is_affordable && !is_put_off ? best : Mesh_view::Directed_edge();
-  }
-
-  /// Whether `v` has not been looked at since something changed around it, or waited for the present bound.
-  bool is_due(Index v) const
-  {
-    return is_active(surface_, v, Activity::simplify) || (represented_ != nullptr && least_cost_[v] <= bound_);
+    for (const auto& candidate : short_edges)
+      if (is_valid(candidate.second, is_seen, is_put_off))
+        return is_put_off ? Mesh_view::Directed_edge() : candidate.second;
+    return {};
   }
 
   template <class IsSeen>
@@ -171,8 +130,7 @@ private:
       [&](std::size_t i) {
         const Mesh_view::Directed_edge& e = proposals_[valid[i]];
         const Index v = vertices[valid[i]];
-        const double relative = represented_ != nullptr ? least_cost_[v] / bound_
-                                                        : surface_.length(e.h) / thresholds_.min_length;
+        const double relative = surface_.length(e.h) / thresholds_.min_length;
         return task_priority((std::min)(7u, std::uint32_t(8 * relative)), v, round);
       },
       [&](std::size_t i, const auto& claim) {
@@ -198,17 +156,12 @@ private:
     return is_collapsed_on_curve(surface_, s, is_seen) ? max_curve_length : min_curve_length;
   }
 
-  bool may_slide_along(Index s, Index h) const
-  {
-    return surface_.vertex_class(s) == Vertex_class::smooth || mesh_.curve[h] == surface_.locations[s].cell;
-  }
-
   template <class IsSeen>
   bool is_valid(const Mesh_view::Directed_edge& e, const IsSeen& is_seen, bool& is_put_off) const
   {
     const Index s = mesh_.vanishing_vertex(e), d = mesh_.kept_vertex(e);
     if (!mesh_.is_collapsible(e)) return false;
-    if (surface_.vertex_class(s) == Vertex_class::curve && !is_curve_preserved(s, d)) return false;
+    if (surface_.vertex_class(s) == Vertex_class::curve && !is_curve_preserved(surface_, s, d)) return false;
 
     double old_quality = 1, old_alignment = 1, length_limit = thresholds_.max_length;
     bool is_valid = true, is_flat = true;
@@ -252,37 +205,12 @@ private:
     return is_kept && surface_.is_near(faces, surface_.points[s]);
   }
 
-  /// Whether the curve through `s` may skip it towards `d`: it must not turn too much there, the new edge must not be
-  /// an edge of a curve already, and must leave a closed curve enough arcs to tell its sides apart.
-  bool is_curve_preserved(Index s, Index d) const
-  {
-    const Index curve = surface_.locations[s].cell;
-    const Index other = next_on_curve(surface_, s, d);
-    bool is_free = true;
-    if (other == no_index) return false;
-    const Vector_3 a = surface_.points[d] - surface_.points[s], b = surface_.points[s] - surface_.points[other];
-    if (a.dot(b) < min_curve_turn * a.norm() * b.norm()) return false;
-    for (const Index h : {mesh_.halfedge(d, other), mesh_.halfedge(other, d)})
-      if (h != no_index && mesh_.is_feature(h)) is_free = false;
-    const auto& c = surface_.reference().features.curves[curve];
-    const bool has_two_ends = !c.is_closed() && c.vertices.front() != c.vertices.back();
-    if (has_two_ends) return is_free;
-    const auto arc_d = surface_.reference().arc(curve, surface_.locations[s], surface_.locations[d]);
-    const auto arc_o = surface_.reference().arc(curve, surface_.locations[s], surface_.locations[other]);
-    return is_free && std::abs(arc_d.second - arc_o.second) < max_share_of_closed_curve * c.length();
-  }
-
   static constexpr double min_turn = 0.3;        // cosine between a face and what replaces it
-  static constexpr double min_curve_turn = 0.5;  // cosine of the angle that a curve turns at a vertex that vanishes
-  static constexpr double max_share_of_closed_curve = 0.4;
 
   const Execution& execution_;
   Surface& surface_;
   Mesh_view& mesh_;
   Simplification_thresholds thresholds_;
-  Represented_points<Surface>* represented_ = nullptr;
-  Buffer<double> least_cost_; // of the collapses of each vertex, when it was last looked at
-  double bound_ = 0;
   std::vector<Mesh_view::Directed_edge> proposals_;
   Reservations reservations_;
 };
