@@ -109,9 +109,10 @@ public:
   bool are_within_limits(Index f, double max_distance) const
   {
     const internal::Prepared_triangle face(corners(f));
+    const Vector_3 normal = face.normal();
     const double limit = (std::min)(limits_.distance, max_distance);
     for (Index i = first_[f]; i != no_index; i = next_[i])
-      if (face.squared_distance(points_[i], none).squared > limit * limit || !is_normal_within_limits(i, face.normal()))
+      if (face.squared_distance(points_[i]).squared > limit * limit || !is_normal_within_limits(i, normal))
         return false;
     return true;
   }
@@ -125,7 +126,7 @@ public:
       const internal::Prepared_triangle face(corners(Index(f)));
       double largest = 0;
       for (Index i = first_[f]; i != no_index; i = next_[i])
-        largest = (std::max)(largest, face.squared_distance(points_[i], none).squared);
+        largest = (std::max)(largest, face.squared_distance(points_[i]).squared);
       return largest;
     }, [](double a, double b) { return (std::max)(a, b); }));
   }
@@ -163,7 +164,7 @@ private:
       for (std::size_t n = faces.size(), i = hint; n > 0; --n, i = i + 1 < faces.size() ? i + 1 : 0) {
         const New_face& f = faces[i];
         if (f.side != side) continue;
-        const auto [squared_distance, is_above] = f.squared_distance(p, best.second);
+        const auto [squared_distance, is_above] = f.squared_distance(p);
         if (is_above) {
           hint = i;
           return {&f, squared_distance};

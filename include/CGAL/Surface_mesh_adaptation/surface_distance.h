@@ -45,21 +45,15 @@ namespace internal {
 class Prepared_triangle
 {
 public:
-  explicit Prepared_triangle(const Triangle_points& corners) : corners_(corners), normal_(Vector_3::Zero())
+  explicit Prepared_triangle(const Triangle_points& corners)
+    : corners_(corners), normal_((corners[1] - corners[0]).cross(corners[2] - corners[0]))
+    , squared_area_(normal_.squaredNorm())
   {
-    const Vector_3 n = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    const double double_area = n.norm();
-    if (double_area > 0) normal_ = n / double_area;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vector_3 out = (corners[(i + 1) % 3] - corners[i]).cross(normal_);
-      const double length = out.norm();
-      outwards_[i] = length > 0 ? Vector_3(out / length) : out;
-      offsets_[i] = outwards_[i].dot(corners[i] - corners[0]);
-    }
+    for (std::size_t i = 0; i < 3; ++i) inwards_[i] = normal_.cross(corners[(i + 1) % 3] - corners[i]);
   }
 
   /// The unit normal; zero if the triangle is degenerate.
-  const Vector_3& normal() const { return normal_; }
+  Vector_3 normal() const { return squared_area_ > 0 ? Vector_3(normal_ / std::sqrt(squared_area_)) : normal_; }
 
   struct Distance
   {
@@ -67,30 +61,23 @@ public:
     bool is_above;
   };
 
-  /// The squared distance of `p` from the triangle, or some number that is not smaller than `enough` if it is not.
-  Distance squared_distance(const Vector_3& p, double enough = std::numeric_limits<double>::infinity()) const
+  /// The squared distance of `p` from the triangle. What is next to `p` lies on an edge that `p` is beyond, or inside.
+  Distance squared_distance(const Vector_3& p) const
   {
-    const Vector_3 d = p - corners_[0];
-    const double height = normal_.dot(d);
-    const std::array<double, 3> beyond{outwards_[0].dot(d), outwards_[1].dot(d) - offsets_[1],
-                                       outwards_[2].dot(d) - offsets_[2]};
-    const double aside = (std::max)({beyond[0], beyond[1], beyond[2]});
-    const bool is_degenerate = normal_ == Vector_3::Zero();
-    if (aside <= 0 && !is_degenerate) return {height * height, true};
-    const double at_least = height * height + aside * aside; // that of the plane and of the line of an edge
-    if (at_least >= enough) return {at_least, false};
     double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < 3; ++i) // the closest point lies on an edge that `p` is beyond
-      if (beyond[i] > 0 || is_degenerate)
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!(squared_area_ > 0) || inwards_[i].dot(p - corners_[i]) < 0)
         least = (std::min)(least, squared_distance_to_segment(p, corners_[i], corners_[(i + 1) % 3]));
-    return {least, false};
+    if (least < std::numeric_limits<double>::infinity()) return {least, false};
+    const double height = normal_.dot(p - corners_[0]);
+    return {height * height / squared_area_, true};
   }
 
 private:
   Triangle_points corners_;
   Vector_3 normal_;
-  std::array<Vector_3, 3> outwards_; // unit vectors in the plane, orthogonal to the edges
-  std::array<double, 3> offsets_;    // of the edges along them
+  double squared_area_;             // times four
+  std::array<Vector_3, 3> inwards_; // in the plane, orthogonal to the edges
 };
 
 } // namespace internal
@@ -98,17 +85,7 @@ private:
 /// Squared distance from `p` to a triangle, which may be degenerate.
 inline double squared_distance_to_triangle(const Vector_3& p, const Triangle_points& t)
 {
-  const Vector_3 n = (t[1] - t[0]).cross(t[2] - t[0]);
-  const double squared_area = n.squaredNorm();
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector_3 &a = t[i], &b = t[(i + 1) % 3];
-    if (!(squared_area > 0) || n.dot((b - a).cross(p - a)) < 0)
-      least = (std::min)(least, squared_distance_to_segment(p, a, b));
-  }
-  if (least < std::numeric_limits<double>::infinity()) return least;
-  const double height = n.dot(p - t[0]);
-  return height * height / squared_area;
+  return internal::Prepared_triangle(t).squared_distance(p).squared;
 }
 
 /// The triangles of a surface in a tree of bounding boxes: four in order along a Hilbert curve in a leaf, and half as

@@ -95,8 +95,10 @@ private:
     std::sort(short_edges.begin(), short_edges.end(), [&](const auto& a, const auto& b) {
       return a.first < b.first || (a.first == b.first && mesh_.kept_vertex(a.second) < mesh_.kept_vertex(b.second));
     });
+    if (short_edges.empty()) return {};
+    const Star around = star(s);
     for (const auto& candidate : short_edges)
-      if (is_valid(candidate.second, is_seen, is_put_off))
+      if (is_valid(candidate.second, around, is_seen, is_put_off))
         return is_put_off ? Mesh_view::Directed_edge() : candidate.second;
     return {};
   }
@@ -156,38 +158,58 @@ private:
     return is_collapsed_on_curve(surface_, s, is_seen) ? max_curve_length : min_curve_length;
   }
 
-  template <class IsSeen>
-  bool is_valid(const Mesh_view::Directed_edge& e, const IsSeen& is_seen, bool& is_put_off) const
+  /// The faces around a vertex that may vanish, and what its collapse must not worsen.
+  struct Star
   {
-    const Index s = mesh_.vanishing_vertex(e), d = mesh_.kept_vertex(e);
-    if (!mesh_.is_collapsible(e)) return false;
-    if (surface_.vertex_class(s) == Vertex_class::curve && !is_curve_preserved(surface_, s, d)) return false;
+    struct Face
+    {
+      Index x, y; ///< the other corners
+      Vector_3 normal;
+    };
 
-    double old_quality = 1, old_alignment = 1, length_limit = thresholds_.max_length;
-    bool is_valid = true, is_flat = true;
+    Ring<Face> faces;
+    double quality = 1, alignment = 1; ///< the least ones
+    double length = 0;                 ///< of the longest edge at the vertex
+  };
+
+  Star star(Index s) const
+  {
+    Star star;
     mesh_.for_each_outgoing(s, [&](Index h) {
       const Index x = mesh_.target(h), y = mesh_.apex(h);
-      old_quality = (std::min)(old_quality, surface_.quality(s, x, y));
-      old_alignment = (std::min)(old_alignment, surface_.alignment(s, x, y));
-      length_limit = (std::max)({length_limit, surface_.length(s, x), surface_.length(s, y)});
+      const Vector_3 n = surface_.normal(s, x, y);
+      star.faces.push_back({x, y, n});
+      star.quality = (std::min)(star.quality, surface_.quality(s, x, y));
+      star.alignment = (std::min)(star.alignment, surface_.alignment(n, s, x, y));
+      star.length = (std::max)({star.length, surface_.length(s, x), mesh_.is_border_vertex(s) ? surface_.length(s, y) : 0});
     });
-    const double quality_limit = (std::min)(thresholds_.min_quality, old_quality);
-    const double alignment_limit = (std::min)(min_alignment, old_alignment);
+    return star;
+  }
+
+  template <class IsSeen>
+  bool is_valid(const Mesh_view::Directed_edge& e, const Star& star, const IsSeen& is_seen, bool& is_put_off) const
+  {
+    const Index s = mesh_.vanishing_vertex(e), d = mesh_.kept_vertex(e);
+    if (surface_.vertex_class(s) == Vertex_class::curve && !is_curve_preserved(surface_, s, d)) return false;
+
+    const double quality_limit = (std::min)(thresholds_.min_quality, star.quality);
+    const double alignment_limit = (std::min)(min_alignment, star.alignment);
     const Index on_curve = thresholds_.space_curves ? next_on_curve(surface_, s, d) : no_index;
+    const double length_limit = (std::max)(thresholds_.max_length, star.length);
     const auto limit_to = [&](Index x) { return x == on_curve ? max_curve_length : length_limit; };
-    mesh_.for_each_outgoing_while(s, [&](Index h) {
-      const Index x = mesh_.target(h), y = mesh_.apex(h);
-      if (x == d || y == d) return true;
-      const double new_quality = surface_.quality(d, x, y);
-      const Vector_3 n = surface_.normal(d, x, y);
-      is_flat = is_flat && surface_.is_flat(n, d, x, y);
-      is_valid = new_quality > quality_limit && new_quality > 0 && surface_.length(d, x) <= limit_to(x) &&
-                 surface_.length(d, y) <= limit_to(y) &&
-                 surface_.alignment(n, d, x, y) >= alignment_limit && n.dot(surface_.normal(s, x, y)) >= min_turn &&
-                 (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit);
-      return is_valid;
-    });
-    return is_valid && (is_flat || is_unfolded(surface_, s, surface_.points[d], is_seen, is_put_off)) &&
+    bool is_flat = true;
+    for (const typename Star::Face& f : star.faces) {
+      if (f.x == d || f.y == d) continue;
+      const double new_quality = surface_.quality(d, f.x, f.y);
+      const Vector_3 n = surface_.normal(d, f.x, f.y);
+      is_flat = is_flat && surface_.is_flat(n, d, f.x, f.y);
+      if (!(new_quality > quality_limit && new_quality > 0 && surface_.length(d, f.x) <= limit_to(f.x) &&
+            surface_.length(d, f.y) <= limit_to(f.y) && surface_.alignment(n, d, f.x, f.y) >= alignment_limit &&
+            n.dot(f.normal) >= min_turn &&
+            (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit)))
+        return false;
+    }
+    return mesh_.is_collapsible(e) && (is_flat || is_unfolded(surface_, s, surface_.points[d], is_seen, is_put_off)) &&
            (!surface_.has_tolerance() || keeps_tolerance(s, d));
   }
 
