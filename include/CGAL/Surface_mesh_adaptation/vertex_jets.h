@@ -166,11 +166,14 @@ inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& po
     jet = jet_of_graph(frame, f, radius);
     return true;
   };
-  if (samples == Jet_fit::exact && accept(fit.solve_cubic(f))) {
-    if (f.hessian.lpNorm<Eigen::Infinity>() > largest_bend) return Fit_degree::cubic;
-    subtract_fourth_order(fit, neighbors, points, frame, radius, samples, f.hessian);
-    accept(fit.solve_cubic(f));
-    return Fit_degree::cubic;
+  if (samples == Jet_fit::exact) {
+    const Cubic_fit::Solver<9> cubic(fit);
+    if (accept(cubic.solve(f))) {
+      if (f.hessian.lpNorm<Eigen::Infinity>() > largest_bend) return Fit_degree::cubic;
+      subtract_fourth_order(fit, neighbors, points, frame, radius, samples, f.hessian);
+      accept(cubic.solve(f));
+      return Fit_degree::cubic;
+    }
   }
   return accept(fit.solve_quadratic(f)) ? Fit_degree::quadratic : Fit_degree::none;
 }

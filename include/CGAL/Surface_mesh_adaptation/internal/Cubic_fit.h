@@ -49,9 +49,42 @@ public:
 
   std::size_t number_of_samples() const { return samples_; }
 
-  /// Whether there are samples enough, and well enough spread, for the fit of this degree; if so, sets `result`.
-  bool solve_cubic(Derivatives_2& result) const { return samples_ >= 14 && solve<9>(result); }
-  bool solve_quadratic(Derivatives_2& result) const { return samples_ >= 6 && solve<5>(result); }
+  /// The normal equations of the fit with `n` monomials, factored: 9 for the cubic, 5 for the quadratic one. Refers to
+  /// the fit, of which values may change.
+  template <int n>
+  class Solver
+  {
+  public:
+    explicit Solver(const Cubic_fit& fit)
+      : fit_(fit), scale_(fit.matrix_.template topLeftCorner<n, n>().diagonal().cwiseSqrt())
+      , inverse_(scale_.cwiseInverse())
+      , factors_(inverse_.asDiagonal() * fit.matrix_.template topLeftCorner<n, n>() * inverse_.asDiagonal())
+    {}
+
+    /// Whether there are samples enough, and well enough spread; if so, sets `result`.
+    bool solve(Derivatives_2& result) const
+    {
+      if (fit_.samples_ < least_samples || !(scale_.minCoeff() > least_column * scale_.maxCoeff()) ||
+          !factors_.is_positive_definite() || !(factors_.least_pivot() > least_sine))
+        return false;
+      const Vector c = inverse_.cwiseProduct(
+        factors_.solve(inverse_.cwiseProduct(fit_.right_hand_side_.template head<n>())));
+      result.gradient << c[0], c[1];
+      result.hessian << c[2], c[3], c[3], c[4];
+      return true;
+    }
+
+  private:
+    using Vector = Eigen::Matrix<double, n, 1>;
+    static constexpr std::size_t least_samples = n == 9 ? 14 : 6;
+
+    const Cubic_fit& fit_;
+    Vector scale_, inverse_;
+    Cholesky<n> factors_;
+  };
+
+  bool solve_cubic(Derivatives_2& result) const { return Solver<9>(*this).solve(result); }
+  bool solve_quadratic(Derivatives_2& result) const { return Solver<5>(*this).solve(result); }
 
 private:
   static constexpr int size = 9;
@@ -69,21 +102,6 @@ private:
   static constexpr double least_sine = 3.2e-3;
   /// The least length of a column over the longest: where all samples lie on two lines, the mixed one is but rounding.
   static constexpr double least_column = 1e-6;
-
-  template <int n>
-  bool solve(Derivatives_2& result) const
-  {
-    using Vector = Eigen::Matrix<double, n, 1>;
-    const Vector scale = matrix_.template topLeftCorner<n, n>().diagonal().cwiseSqrt();
-    if (!(scale.minCoeff() > least_column * scale.maxCoeff())) return false;
-    const Vector inverse = scale.cwiseInverse();
-    const Cholesky<n> factors(inverse.asDiagonal() * matrix_.template topLeftCorner<n, n>() * inverse.asDiagonal());
-    if (!factors.is_positive_definite() || !(factors.least_pivot() > least_sine)) return false;
-    const Vector c = inverse.cwiseProduct(factors.solve(inverse.cwiseProduct(right_hand_side_.template head<n>())));
-    result.gradient << c[0], c[1];
-    result.hessian << c[2], c[3], c[3], c[4];
-    return true;
-  }
 
   Matrix matrix_; // its lower triangle
   Row right_hand_side_;
