@@ -93,6 +93,6 @@ int main(int argc, char* argv[])
 
   for (const Vertex v : mesh.vertices()) // the maps are those of the new mesh now
     if (is_fixed[v])
-      std::cout << "the vertex that was fixed is at " << mesh.point(v) << ", its temperature is " << temperature[v] << '\n';
+      std::cout << "the vertex that was fixed is at " << mesh.point(v) << ", of temperature " << temperature[v] << '\n';
   return CGAL::IO::write_polygon_mesh("features_and_attributes.off", mesh) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

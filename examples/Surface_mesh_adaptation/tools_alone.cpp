@@ -75,7 +75,7 @@ int main(int argc, char* argv[])
   const SMA::Exponential_map_result end = SMA::exponential_map(ring, step);
   const SMA::Matrix_3 turn = SMA::chord_rotation(ring.center(), ring.normal(), end.point.position, end.point.normal);
   const SMA::Metric_tensor_3 carried = SMA::rotated(jets.shape_operators[jets.of_corner[0]], turn);
-  std::cout << "half an edge away, in face " << end.face << ", the shape operator has become\n" << carried.matrix() << '\n';
+  std::cout << "half an edge away, in face " << end.face << ", the shape operator becomes\n" << carried.matrix() << '\n';
 
   // vertices that may be moved at the same time
   const SMA::Graph_coloring coloring = SMA::graph_coloring(

@@ -197,7 +197,8 @@ void check_fans(const Execution& execution, const Mesh_view& mesh)
 }
 
 /// Reads `graph`, a triangulated surface with the points `get(point_map, v)`, into arrays, and checks it: an orientable
-/// 2-manifold, closed or with boundary, without isolated vertices. Features are not marked yet, see `detect_features()`.
+/// 2-manifold, closed or with boundary, without isolated vertices. `detect_features()` comes
+/// next: without it `mesh.curve` is not set.
 /// \throws any `Invalid_input_error`, Empty_mesh_error, Mesh_too_large_error
 /// \complexity O(n)
 template <class Execution, class FaceGraph, class VertexPointMap>
