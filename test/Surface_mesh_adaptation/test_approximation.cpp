@@ -217,6 +217,29 @@ TEST(Simplify_within_limits, keeps_constrained_vertices_where_they_are)
     EXPECT_EQ(std::count(result.points.begin(), result.points.end(), soup.points[v]), 1);
 }
 
+TEST(Simplify_within_limits, is_certified_by_a_tolerance_or_fails)
+{
+  const Mesh input = shapes::mesh<Mesh>(shapes::torus(60, 22, 0.3));
+  const distances::Original original(input);
+  constexpr double distance = 0.01;
+  const auto limits = params::maximum_distance(distance).surface_reconstruction(SMA::Flat_reconstruction());
+  Mesh mesh = input;
+  SMA::simplify(mesh, no_size, limits.tolerance(2 * distance));
+  EXPECT_LT(num_vertices(mesh), num_vertices(input) / 2);
+  EXPECT_LE(original.distance_to(mesh, 20000).largest, 2 * distance);
+  EXPECT_THROW(SMA::simplify(mesh, no_size, limits.tolerance(0.1 * distance)), SMA::Tolerance_error);
+}
+
+TEST(Simplify, counts_what_the_last_attempt_removed_when_a_tolerance_takes_several)
+{
+  const Mesh input = real_mesh<Mesh>("rotor_small");
+  const double diagonal = distances::Original(input).diagonal();
+  Mesh mesh = input;
+  const std::size_t removed =
+    SMA::simplify(mesh, SMA::Uniform_metric_field(0.05 * diagonal), params::tolerance(0.003 * diagonal));
+  EXPECT_EQ(removed, num_vertices(input) - num_vertices(mesh));
+}
+
 TEST(Simplify_within_limits, refuses_limits_that_make_no_sense)
 {
   Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(2));

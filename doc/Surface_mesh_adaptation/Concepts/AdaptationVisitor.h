@@ -21,6 +21,7 @@ public:
   /// The round is over, and the mesh is now as `statistics` says.
   void round_done(std::size_t round, const Mesh_statistics& statistics);
 
-  /// Asked after every kernel: `false` ends the run with the valid mesh reached so far.
+  /// Asked after every kernel: `false` ends the run with the valid mesh reached so far. Of a visitor of `refine()`,
+  /// `simplify()`, `swap()` and `relocate()` nothing else is called, after every sweep.
   bool go_on();
 };

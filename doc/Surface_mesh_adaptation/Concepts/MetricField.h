@@ -4,7 +4,8 @@
 \ingroup PkgSurfaceMeshAdaptationConcepts
 \cgalConcept
 
-What a mesh is adapted to: a size or a metric tensor at every point of the surface. Besides the models below, every
+What a mesh is adapted to: a size (a length in the unit of the coordinates) or a metric tensor `M` at every point of the
+surface, in which an edge `e` is to have the length `sqrt(e^T M e) = 1`. Besides the models below, every
 `ReadablePropertyMap` with the vertex descriptor of the mesh as key and a size (convertible to `double`) or a
 `Metric_tensor_3` as value is a model.
 

@@ -69,7 +69,8 @@ inline po::options_description described_options(Options& o)
      "--curvature: the intersection of both")
     ("norm", po::value<double>()->value_name("P")->notifier([&](double p) { o.norm = p; }),
      "the L^P norm in which --field measures the error, 1 to inf (default: 2)")
-    ("anisotropic", po::bool_switch(&o.anisotropic), "stretch the faces along the directions in which the curvature or the field varies less")
+    ("anisotropic", po::bool_switch(&o.anisotropic),
+     "stretch the faces along the directions in which the surface bends, or the field varies, less")
     ("vertices", po::value(&o.vertices)->value_name("N"),
      "number of vertices to aim at: with sizes from the curvature if nothing else is given, else with those of --field "
      "or --metric, scaled")

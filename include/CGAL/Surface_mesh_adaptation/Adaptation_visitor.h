@@ -10,7 +10,8 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// Follows a run, and can stop it. All calls come from the thread that called `adapt_surface_mesh`, between sweeps.
+/// Follows a run, and can stop it; derive from it and redefine what is wanted, nothing is virtual. All calls come from
+/// the thread that called `adapt_surface_mesh`, between sweeps.
 /// \cgalModels `AdaptationVisitor`
 struct Adaptation_visitor
 {
@@ -20,7 +21,8 @@ struct Adaptation_visitor
   void kernel_done(const Kernel_report&) {}
   /// The round is over.
   void round_done(std::size_t /*round*/, const Mesh_statistics&) {}
-  /// Asked after every kernel: `false` ends the run with the valid mesh reached so far.
+  /// Asked after every kernel, and where a kernel runs alone after every sweep: `false` ends the run with the valid mesh
+  /// reached so far.
   bool go_on() { return true; }
 };
 

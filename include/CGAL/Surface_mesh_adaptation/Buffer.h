@@ -45,9 +45,9 @@ struct Uninitialized_allocator : std::allocator<T>
 template <class T>
 using Buffer = std::vector<T, internal::Uninitialized_allocator<T>>;
 
-/// Resizes without keeping the content, which `resize` would copy in series when it needs more memory. If more has to be
-/// fetched, then for `expected` elements at once: pages that nobody touches cost nothing, but giving back and fetching
-/// large blocks takes the system long.
+/// Resizes without keeping the content, which `resize` would copy in series when it needs more memory. If more has to
+/// be fetched, then for `expected` elements at once: pages that nobody touches cost nothing, but giving back and
+/// fetching large blocks takes the system long.
 template <class T>
 void resize_and_forget(Buffer<T>& buffer, std::size_t n, std::size_t expected = 0)
 {

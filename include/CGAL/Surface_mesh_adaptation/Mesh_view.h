@@ -178,8 +178,8 @@ public:
     outgoing[d] = first_of_fan(out);
   }
 
-  /// Whether collapsing `e` keeps a simplicial 2-manifold with the same boundary cycles:
-  /// the link condition, and no vertex left with too few faces.
+  /// Whether collapsing `e` keeps a simplicial 2-manifold with the same boundary cycles: the link condition, and no
+  /// vertex left with too few faces.
   bool is_collapsible(const Directed_edge& e) const
   {
     const Index s = vanishing_vertex(e), d = kept_vertex(e), t = twin[e.h];

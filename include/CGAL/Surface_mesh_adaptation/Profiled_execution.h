@@ -23,8 +23,8 @@ struct Parallel_step
   double longest = 0;  ///< seconds of the longest task
 };
 
-/// Runs tasks one after the other and records how long they take, by `std::clock()`: in the time of the processor, which
-/// does not count what other programs take meanwhile. \pre no other thread of this program runs
+/// Runs tasks one after the other and records how long they take, by `std::clock()`: in the time of the processor,
+/// which does not count what other programs take meanwhile. \pre no other thread of this program runs
 /// \cgalModels `AdaptationExecution`
 class Profiled_execution
 {

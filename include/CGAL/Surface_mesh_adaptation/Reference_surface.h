@@ -181,8 +181,8 @@ public:
     return x;
   }
 
-  /// A smooth location in the faces around a curve or corner location, from which to walk to `target`:
-  /// the closest point to `target` among those faces.
+  /// A smooth location in the faces around a curve or corner location, from which to walk to `target`: the closest
+  /// point to `target` among those faces.
   Location smooth_location_near(const Location& l, const Vector_3& target) const
   {
     Location best;

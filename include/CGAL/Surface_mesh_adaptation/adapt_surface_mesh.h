@@ -39,8 +39,9 @@ The result is the same to the last bit for every execution policy and number of 
 step at the end: if anything throws, it is as it was.
 
 \param execution how to run; see `execution.h`. The overload without it takes a `ConcurrencyTag` or a policy type.
-\param mesh a triangulated 2-manifold, closed or with boundary, of any number of components. Its elements are
-       renumbered; of its property maps only the vertex points and those passed below are meaningful afterwards.
+\param mesh a model of `MutableFaceGraph` with triangles as faces: an orientable 2-manifold, closed or with boundary, of
+       any number of components. Its elements are renumbered; of its property maps only the vertex points and those passed
+       below are meaningful afterwards. Coordinates are converted to `double`.
 \param field what to adapt to, a model of `MetricField`: `Uniform_metric_field`, `Curvature_metric_field`,
        `Solution_metric_field`, `Analytic_metric_field`, an `Intersection_metric_field` of several, or a property map
        from vertices to sizes or to `Metric_tensor_3`.
@@ -55,11 +56,12 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNBegin{number_of_iterations}
     \cgalParamDescription{the largest number of rounds}
     \cgalParamType{`unsigned int`}
-    \cgalParamDefault{`8`; fewer are done if nothing is left to gain}
+    \cgalParamDefault{`8`; fewer are done if nothing is left to gain, more if the field asks for a number of vertices
+                      that is missed}
   \cgalParamNEnd
   \cgalParamNBegin{feature_angle}
-    \cgalParamDescription{an edge is a ridge if the normals of its faces differ by more than this, in degrees}
-    \cgalParamType{`double`}
+    \cgalParamDescription{an edge is a ridge if the normals of its faces differ by more than this}
+    \cgalParamType{`double`, in degrees, above 0 and up to 180}
     \cgalParamDefault{`45`}
   \cgalParamNEnd
   \cgalParamNBegin{detect_features}
@@ -68,9 +70,10 @@ step at the end: if anything throws, it is as it was.
     \cgalParamDefault{`true`}
   \cgalParamNEnd
   \cgalParamNBegin{edge_is_constrained_map}
-    \cgalParamDescription{edges that are features; they may be split, and are marked again on the result if the map
-                          is writable}
-    \cgalParamType{a `ReadablePropertyMap` with the edge descriptor as key and `bool` as value}
+    \cgalParamDescription{edges that are features as ridges are: they stay chains of edges, which are split and
+                          collapsed}
+    \cgalParamType{a `ReadablePropertyMap` with the edge descriptor as key and `bool` as value; if writable, all feature
+                   edges of the result are marked in it, ridges and boundaries included}
     \cgalParamDefault{no edge is constrained}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_is_constrained_map}
@@ -85,14 +88,14 @@ step at the end: if anything throws, it is as it was.
     \cgalParamDefault{`Gregory_reconstruction`}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_normal_map}
-    \cgalParamDescription{the outer normals of the surface at the vertices, where they are known; not used at sharp
+    \cgalParamDescription{the outer normals of the surface at all vertices, of any length but 0; not used at sharp
                           features and boundaries}
     \cgalParamType{a `ReadablePropertyMap` with the vertex descriptor as key and `Vector_3` as value}
     \cgalParamDefault{estimated from the points, see `estimate_jets()`}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_shape_operator_map}
-    \cgalParamDescription{the derivatives of the normal along the surface at the vertices, where they are known: on a
-                          sphere of radius r, `(I - n n^T) / r`; not used at sharp features and boundaries}
+    \cgalParamDescription{the derivatives of the normal along the surface at all vertices: on a sphere of radius r,
+                          `(I - n n^T) / r`; not used at sharp features and boundaries}
     \cgalParamType{a `ReadablePropertyMap` with the vertex descriptor as key and `Metric_tensor_3` as value}
     \cgalParamDefault{estimated from the points, see `estimate_jets()`}
   \cgalParamNEnd
@@ -108,9 +111,11 @@ step at the end: if anything throws, it is as it was.
     \cgalParamDefault{none}
   \cgalParamNEnd
   \cgalParamNBegin{tolerance}
-    \cgalParamDescription{the largest Hausdorff distance between the mesh as it is and as it will be: operations that
-                          leave it are refused, and the distance is bounded in the end, see `surface_distance.h`}
-    \cgalParamType{`double`, a length}
+    \cgalParamDescription{the largest Hausdorff distance between the triangles of the mesh as it is and as it will be:
+                          operations that leave it are refused, and the distance is bounded in the end, see
+                          `surface_distance.h`. If it is too large all is done again, up to three times, and the visitor
+                          sees the rounds again. Takes ten times the time or more.}
+    \cgalParamType{`double`, a length, positive}
     \cgalParamDefault{infinity, that is none}
   \cgalParamNEnd
   \cgalParamNBegin{visitor}
@@ -120,8 +125,12 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
-\throws an exception derived from `Adaptation_error`, before the mesh is changed; `Tolerance_error` if the tolerance could
-        not be kept
+\returns sizes, conformity and quality before and after, and what each kernel did
+
+\throws Invalid_input_error one of those derived from it, if the mesh, the metric or a map is not as above;
+        `Empty_mesh_error`; `Invalid_parameter_error`; `Mesh_too_large_error`; `Tolerance_error` if the tolerance could not
+        be kept. All derive from `Adaptation_error`. What maps, formulas and visitors throw passes through. The mesh is as
+        it was in any case.
 \complexity O(n log n) time, O(n) memory, for n the larger of the numbers of input and output vertices
 */
 template <class Execution, class TriangleMesh, class MetricField,

@@ -78,8 +78,8 @@ std::vector<Index> sweep_blocks(const Execution& execution, std::size_t number_o
   return deferred;
 }
 
-/// Vertices in increasing order, by the blocks they belong to, and a colour for each block, such that no edge leads from
-/// one of the vertices to another block of the same colour.
+/// Vertices in increasing order, by the blocks they belong to, and a colour for each block, such that no edge leads
+/// from one of the vertices to another block of the same colour.
 class Border_of_blocks
 {
 public:

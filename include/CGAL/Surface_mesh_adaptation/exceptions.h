@@ -20,8 +20,8 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// An input that was rejected before anything was changed; `index()` is the first offending element,
-/// counted in the order in which the mesh (or the file) lists its elements, from 0.
+/// An input that was rejected before anything was changed; `index()` is the first offending element, counted in the
+/// order in which the mesh (or the file) lists its elements, from 0.
 class Invalid_input_error : public Adaptation_error
 {
 public:

@@ -198,7 +198,7 @@ void fill(const Execution& execution, Buffer& buffer, std::size_t n, const T& va
   });
 }
 
-/// Lets `add(value, i)` gather `[0, n)` into a value for each chunk, in order, and folds these with `combine`, in order.
+/// Lets `add(value, i)` gather `[0, n)` into a value for each chunk and folds these with `combine`, both in order.
 template <class Execution, class T, class Add, class Combine>
 T accumulate(const Execution& execution, std::size_t n, const T& identity, const Add& add, const Combine& combine)
 {
@@ -228,8 +228,7 @@ std::size_t count_if(const Execution& execution, std::size_t n, const Predicate&
                 [](std::size_t a, std::size_t b) { return a + b; });
 }
 
-/// Replaces `offsets[i] = size(i)` by the sum of the sizes before `i`, and returns the sum of all:
-/// `offsets` is resized to `n`.
+/// Writes the sum of the sizes before `i` to `offsets[i]`, which is resized to `n`, and returns the sum of all.
 template <class Execution, class Offsets, class Size>
 std::uint32_t exclusive_scan(const Execution& execution, std::size_t n, Offsets& offsets, const Size& size)
 {

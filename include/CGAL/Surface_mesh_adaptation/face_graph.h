@@ -196,7 +196,11 @@ void check_fans(const Execution& execution, const Mesh_view& mesh)
   if (non_simplicial < n) throw Non_simplicial_edge_error(non_simplicial);
 }
 
-/// Reads and checks `graph`. \throws any `Invalid_input_error`, Empty_mesh_error, Mesh_too_large_error
+/// Reads `graph`, a triangulated surface with the points `get(point_map, v)`, into arrays, and checks it: an orientable
+/// 2-manifold, closed or with boundary, without isolated vertices. `detect_features()` comes
+/// next: without it `mesh.curve` is not set.
+/// \throws any `Invalid_input_error`, Empty_mesh_error, Mesh_too_large_error
+/// \complexity O(n)
 template <class Execution, class FaceGraph, class VertexPointMap>
 Imported_mesh<FaceGraph> read_face_graph(const Execution& execution, const FaceGraph& graph,
                                          const VertexPointMap& point_map)
@@ -333,6 +337,10 @@ void write_points(const Execution&, const Points& points, FaceGraph& graph, cons
 }
 
 } // namespace internal
+
+using internal::Imported_mesh;
+using internal::read_face_graph; // the way in for what works on a `Mesh_view` and can be used alone
+
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

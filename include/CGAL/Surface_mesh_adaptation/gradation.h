@@ -140,16 +140,16 @@ private:
 
 } // namespace internal
 
-/// Raises `tensors` (one per vertex) until the h-shock of every edge `pq` is at most `ratio`: the sizes `h_p`, `h_q` that
-/// the tensors at its ends ask for along it satisfy `|h_p - h_q| <= |pq| ln ratio`. The edge is carried to the tangent
-/// planes of its ends, and from one to the other, by the minimal rotation of the normals. A tensor of which the size
-/// along an edge is too large is intersected with that of the other end, carried to it and divided by
+/// Raises `tensors` (one per vertex) until the h-shock of every edge `pq` is at most `ratio`: the sizes `h_p`, `h_q`
+/// that the tensors at its ends ask for along it satisfy `|h_p - h_q| <= |pq| ln ratio`. The edge is carried to the
+/// tangent planes of its ends, and from one to the other, by the minimal rotation of the normals. A tensor of which the
+/// size along an edge is too large is intersected with that of the other end, carried to it and divided by
 /// `(1 + l ln ratio)^2`, with `l` the length of the edge in the tensor of the other end (growth that is homogeneous in
-/// the metric). What several neighbours bound is folded by decreasing determinant, so the numbering of the mesh does not
-/// matter. `ratio <= 1` switches it off.
+/// the metric). What several neighbours bound is folded by decreasing determinant, so the numbering of the mesh does
+/// not matter. `ratio <= 1` switches it off.
 /// \pre all tensors are positive definite
-/// \complexity in each sweep a few hundred nanoseconds for each vertex with a changed neighbour; the number of sweeps is
-///   that of the layers of vertices over which the smallest sizes have an effect
+/// \complexity in each sweep a few hundred nanoseconds for each vertex with a changed neighbour; the number of sweeps
+///   is that of the layers of vertices over which the smallest sizes have an effect
 template <class Execution>
 void apply_gradation(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
                      const Corner_normals& normals, double ratio, std::vector<Metric_tensor_3>& tensors)

@@ -28,7 +28,7 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// The same edge length everywhere.
+/// The same edge length everywhere, in the unit of the coordinates.
 /// \cgalModels `MetricField`
 struct Uniform_metric_field
 {
@@ -42,17 +42,21 @@ struct Uniform_metric_field
 
 /// Sizes from the curvature of the surface, so that the distance between the surface and its faces stays near a
 /// tolerance: the size along a principal direction of curvature `k` is `sqrt(6 tolerance / |k|)`, which is exact where
-/// both curvatures have the same sign, and too small by a factor of up to `sqrt(4 / 3)` on saddles.
+/// both curvatures have the same sign, and too small by a factor of up to `sqrt(4 / 3)` on saddles. The surface is the
+/// smooth one over the faces of the input; no distance is certified, see the parameter `tolerance` for that.
+///
+/// Lengths are in the unit of the coordinates. An `hmin` above `hmax` or a `max_anisotropy` below 1 makes the adaptation
+/// throw an `Invalid_parameter_error`.
 /// \cgalModels `MetricField`
 struct Curvature_metric_field
 {
-  double relative_tolerance;   ///< as a fraction of the diagonal of the bounding box
+  double relative_tolerance;   ///< as a fraction of the diagonal of the bounding box; not used with `vertices`
   double hmin = 0;             ///< smallest size; 0: the tolerance itself, with a number of vertices 1e-6 diagonals
   double hmax = 0;             ///< largest size; 0: a tenth of the diagonal, with a number of vertices the diagonal
   bool anisotropic = false;    ///< keep the directions; else the smaller of the two sizes counts in all
   double gradation = default_gradation;            ///< largest ratio of the sizes at two points one size apart
   double max_anisotropy = default_max_anisotropy;  ///< largest ratio of the two sizes at a point
-  bool noisy = false;          ///< the points are not quite on the surface: smoother, less accurate curvatures
+  bool noisy = false;          ///< the points are not quite on the surface (scans): smoother, less accurate curvatures
   std::size_t vertices = 0;    ///< if not 0, the tolerance is that with which the mesh has so many vertices
 
   explicit Curvature_metric_field(double relative_tolerance_) : relative_tolerance(relative_tolerance_)
@@ -63,8 +67,10 @@ struct Curvature_metric_field
 };
 
 /// Sizes from a scalar field, given at the vertices, so that the L^p norm of the error of its linear interpolation on
-/// the mesh is as small as a number of vertices allows (Loseille, Alauzet 2011).
-/// \tparam VertexScalarMap a `ReadablePropertyMap` with the vertex descriptor as key and a value convertible to `double`
+/// the mesh is as small as a number of vertices allows (Loseille, Alauzet 2011). Where the field is linear nothing but
+/// `hmax` bounds the sizes: intersect it with a `Curvature_metric_field` to keep the shape. Values that are not finite
+/// make the adaptation throw an `Invalid_field_error`.
+/// \tparam VertexScalarMap a `ReadablePropertyMap`, vertex descriptors as keys, values convertible to `double`
 /// \cgalModels `MetricField`
 template <class VertexScalarMap>
 struct Solution_metric_field
@@ -85,7 +91,9 @@ struct Solution_metric_field
 };
 
 /// What several fields ask for at once: the intersection of their metrics at the vertices of the input, anisotropic if
-/// one of them is. The gradation of the fields does not count, that of the intersection does.
+/// one of them is. The gradation of the fields does not count, that of the intersection does. Of a single field, for
+/// instance a property map, it is what bounds, grades and scales it to a number of vertices.
+/// \tparam MetricFields models of `MetricField`, property maps of the vertices included
 /// \cgalModels `MetricField`
 template <class... MetricFields>
 struct Intersection_metric_field
@@ -100,7 +108,8 @@ struct Intersection_metric_field
 };
 
 /// A formula: a function object that takes a point (`Vector_3`) and returns a size (`double`) or a `Metric_tensor_3`.
-/// It is called concurrently, and evaluated anew wherever a vertex is put.
+/// It is called concurrently, and evaluated anew wherever a vertex is put, at points of the surface. A value
+/// that is not positive (definite) and finite makes the adaptation throw an `Invalid_parameter_error`.
 /// \cgalModels `MetricField`
 template <class Function>
 struct Analytic_metric_field

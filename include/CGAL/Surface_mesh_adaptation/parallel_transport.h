@@ -2,10 +2,10 @@
 //
 // Parallel transport over a short step of a surface of which the points and normals at both ends are known.
 //
-// A transport from `p` to `q` is a rotation `R` that takes the normal `np` to the normal `nq`: it takes the vector `v` to
-// `R v` and the tensor `M` to `R M R^T`, which keeps lengths, angles and eigenvalues. What the models differ in is the
-// angle by which they turn the tangent plane. Its error over a step of the length `h`, with the largest curvature `k`,
-// and the order over many steps:
+// A transport from `p` to `q` is a rotation `R` that takes the normal `np` to the normal `nq`: it takes the vector `v`
+// to `R v` and the tensor `M` to `R M R^T`, which keeps lengths, angles and eigenvalues. What the models differ in is
+// the angle by which they turn the tangent plane. Its error over a step of the length `h`, with the largest curvature
+// `k`, and the order over many steps:
 //
 //   minimal_rotation   below 0.15 (k h)^3   second order; exact on spheres
 //   chord_rotation     below 0.15 (k h)^3   second order; exact on spheres

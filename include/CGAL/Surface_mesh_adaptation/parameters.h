@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Named parameters of the package, beside those of CGAL that it also understands. A pack made here converts to
-// CGAL's, and a plain CGAL pack is accepted wherever one of ours is.
+// CGAL's, and a plain CGAL pack is accepted wherever one of ours is. Their meaning: adapt_surface_mesh.h, simplify.h.
 //
 //     namespace params = CGAL::Surface_mesh_adaptation::parameters;
 //     adapt_surface_mesh(mesh, field, params::feature_angle(60).number_of_iterations(4));

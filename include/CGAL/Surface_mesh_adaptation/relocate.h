@@ -16,7 +16,7 @@ Moves vertices on the surface to improve the faces around them (paper, section 3
        (default: 10), and the visitor's `go_on` is asked after each of them
 
 \returns the number of moves
-\throws an exception derived from `Adaptation_error`, before the mesh is changed
+\throws as `adapt_surface_mesh`: the mesh is as it was then
 */
 template <class Execution, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters>

@@ -42,9 +42,10 @@ keeps the features (paper, section 5).
 
 With a limit on the normals or on the distance, the collapses that cost least by quadric errors go first, each to the
 place that is best by these, and go on until the limits allow no more, or until that on the normals holds a fifth of the
-vertices: to go on would save few others, at an error that grows ever faster. In the end the vertices, but for corners, are
-fitted to the surface, so that the faces run through it instead of touching it from one side. A large metric leaves
-everything to the limits.
+vertices: to go on would save few others, at an error that grows ever faster. In the end the vertices, but for corners,
+are fitted to the surface, so that the faces run through it instead of touching it from one side. A large size in
+`field` leaves everything to the limits. These are kept at the points that they name; where the whole surface is to stay
+within a distance, a `tolerance` that is larger than `maximum_distance` certifies that in the end, or makes it an error.
 
 \param execution, mesh, field, np as for `adapt_surface_mesh`; `number_of_iterations` is the largest number of sweeps
        (default: 24, or with limits as many as it takes), and the visitor's `go_on` is asked after each of them. Beside:
@@ -52,20 +53,20 @@ everything to the limits.
 \cgalNamedParamsBegin
   \cgalParamNBegin{maximum_normal_deviation}
     \cgalParamDescription{the largest angle between the normal of a face and those of the faces of the input that it
-                          stands for, in degrees}
-    \cgalParamType{`double`}
+                          stands for}
+    \cgalParamType{`double`, in degrees, above 0 and up to 180}
     \cgalParamDefault{no limit}
   \cgalParamNEnd
   \cgalParamNBegin{maximum_distance}
-    \cgalParamDescription{the largest distance between the surface, at the vertices and the centroids of the faces of the
-                          input, and the faces that stand for these}
-    \cgalParamType{`double`, in the unit of the coordinates}
+    \cgalParamDescription{the largest distance between the surface, at the vertices and the centroids of the faces of
+                          the input, and the faces that stand for these}
+    \cgalParamType{`double`, in the unit of the coordinates, positive}
     \cgalParamDefault{no limit}
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
 \returns the number of vertices removed
-\throws an exception derived from `Adaptation_error`, before the mesh is changed
+\throws as `adapt_surface_mesh`: the mesh is as it was then
 */
 template <class Execution, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters>

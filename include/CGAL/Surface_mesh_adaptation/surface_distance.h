@@ -4,9 +4,9 @@
 //
 // The distance to one triangle is a convex function, so that on another triangle it is largest at a corner. Hence the
 // distance from a triangle to a surface is at most that of its farthest corner to any one triangle of the surface; for
-// the one nearest to the centre that is a good bound once the triangle is small or lies above it, and it is cut until then
-// (after M. Tang, M. Lee, Y. J. Kim, *Interactive Hausdorff distance computation for general polygonal models*, 2009).
-// All bounds hold up to rounding.
+// the one nearest to the centre that is a good bound once the triangle is small or lies above it, and it is cut until
+// then (after M. Tang, M. Lee, Y. J. Kim, *Interactive Hausdorff distance computation for general polygonal models*,
+// 2009). All bounds hold up to rounding.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_DISTANCE_H
 #define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_DISTANCE_H
@@ -154,8 +154,8 @@ public:
     return best;
   }
 
-  /// A triangle near `p`, reached from `start` across edges that `p` lies beyond. Where the surface is nearly flat it is
-  /// the one next to `p`; it may be any.
+  /// A triangle near `p`, reached from `start` across edges that `p` lies beyond. Where the surface is nearly flat it
+  /// is the one next to `p`; it may be any.
   std::size_t towards(const Vector_3& p, std::size_t start) const
   {
     constexpr int max_steps = 8;
@@ -315,8 +315,8 @@ void halve(const Triangle_piece& piece, const Use& use)
     if (!half.corners.empty()) use(half);
 }
 
-/// Calls `use(part)` for the part of `piece` above the triangle `t` and for what is left at its sides; for halves if that
-/// would be the whole piece. Where surfaces are nearly parallel, parts above one triangle need not be cut further.
+/// Calls `use(part)` for the part of `piece` above the triangle `t` and for what is left at its sides; for halves if
+/// that would be the whole piece. Where surfaces are nearly parallel, parts above one triangle need not be cut further.
 template <class Use>
 void split(const Triangle_piece& piece, const Triangle_points& t, const Use& use)
 {
@@ -336,8 +336,8 @@ void split(const Triangle_piece& piece, const Triangle_points& t, const Use& use
 
 } // namespace internal
 
-/// Whether all points of `t` lie within `limit` of the surface. `false` may be wrong, for no more than `max_pieces` pieces
-/// of `t` are looked at. `guesses` are places of triangles of the surface near the corners.
+/// Whether all points of `t` lie within `limit` of the surface. `false` may be wrong, for no more than `max_pieces`
+/// pieces of `t` are looked at. `guesses` are places of triangles of the surface near the corners.
 template <class Guesses>
 bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit, const Guesses& guesses,
                std::size_t max_pieces = 64)
@@ -402,8 +402,8 @@ inline double distance_bound(const Triangle_tree& tree, const Triangle_points& t
   return upper;
 }
 
-/// An upper bound, by no more than `precision` too large, of the distance that points of one surface have from the other.
-/// A precision that is lost in rounding is replaced by one that is not.
+/// An upper bound, by no more than `precision` too large, of the distance that points of one surface have from the
+/// other. A precision that is lost in rounding is replaced by one that is not.
 template <class Execution>
 double one_sided_distance_bound(const Execution& execution, const Triangle_tree& from, const Triangle_tree& to,
                                 double precision)
@@ -424,8 +424,8 @@ double one_sided_distance_bound(const Execution& execution, const Triangle_tree&
   }, larger);
 }
 
-/// An upper bound of the Hausdorff distance between two surfaces, by no more than `precision` too large.
-/// O(n log n) for surfaces that are near each other, and more where the distance is nearly the largest over large parts.
+/// An upper bound of the Hausdorff distance between two surfaces, by no more than `precision` too large. O(n log n) for
+/// surfaces that are near each other, and more where the distance is nearly the largest over large parts.
 template <class Execution>
 double hausdorff_distance_bound(const Execution& execution, const Triangle_tree& a, const Triangle_tree& b, double precision)
 {

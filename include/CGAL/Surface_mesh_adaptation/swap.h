@@ -16,7 +16,7 @@ Swaps edges to improve the worst quality of their two faces, and the degrees of 
        (default: 24), and the visitor's `go_on` is asked after each of them
 
 \returns the number of edges swapped
-\throws an exception derived from `Adaptation_error`, before the mesh is changed
+\throws as `adapt_surface_mesh`: the mesh is as it was then
 */
 template <class Execution, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters>

@@ -55,8 +55,8 @@ void for_each_sector(const Mesh_view& mesh, Index v, const Sector& sector)
   }
 }
 
-/// Mean of the face normals with the weights of Max (1999), exact on the sphere:
-/// the cross product of two edges over the product of their squared lengths.
+/// Mean of the face normals with the weights of Max (1999), exact on the sphere: the cross product of two edges over
+/// the product of their squared lengths.
 inline Vector_3 sector_normal(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first, std::size_t n)
 {
   Vector_3 weighted = Vector_3::Zero(), sum = Vector_3::Zero();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Jets of the sectors of a mesh (vertex_jets.h), each estimated when it is first asked for: where a mesh stays as it is,
-// none are.
+// Jets of the sectors of a mesh (vertex_jets.h), each estimated when it is first asked for: where a mesh stays as it
+// is, none are.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_LAZY_JETS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_LAZY_JETS_H
@@ -47,8 +47,8 @@ public:
     }, fill_chunk_length);
   }
 
-  /// The jet of `sector`, which `estimate()` returns. Threads that ask at the same time may all estimate it, to the same
-  /// bits.
+  /// The jet of `sector`, which `estimate()` returns. Threads that ask at the same time may all estimate it, to the
+  /// same bits.
   template <class Estimate>
   Jet at(Index sector, const Estimate& estimate) const
   {
@@ -70,8 +70,8 @@ private:
   std::unique_ptr<std::atomic<std::uint8_t>[]> state_;
 };
 
-/// The jet of the sector that the corner `h` belongs to, with the normal of Max and without a shape operator where no fit
-/// is good enough. What is given counts at smooth vertices: others may have several normals.
+/// The jet of the sector that the corner `h` belongs to, with the normal of Max and without a shape operator where no
+/// fit is good enough. What is given counts at smooth vertices: others may have several normals.
 inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Features& features,
                         const Corner_normals& normals, const Given_jets& given, Index h)
 {

@@ -27,8 +27,8 @@ inline Cubic_handles smooth_handles(const Vector_3& e, const Vector_3& na, const
 {
   const double length2 = e.squaredNorm(), x = na.dot(e), y = nb.dot(e), c = na.dot(nb);
   const Vector_3 third = (1.0 / 3) * e;
-  // 35 degrees out of a tangent plane (an icosahedron has 32; a faceted bore, whose needles would bulge, more), or normals
-  // 120 degrees apart
+  // 35 degrees out of a tangent plane (an icosahedron has 32; a faceted bore, whose needles would bulge, more), or
+  // normals 120 degrees apart
   if (!(3 * x * x < length2 && 3 * y * y < length2 && c > -0.5)) return {third, -third, true};
   const double k = 1 / (3 * (4 - c * c)), p = k * (2 * x + c * y), q = k * (2 * y + c * x);
   return {(third - 2 * p * na) + q * nb, (2 * q * nb - third) - p * na, false};

@@ -195,8 +195,8 @@ double certified_distance(const Any_execution& execution, const Tolerance& toler
   return hausdorff_distance_bound(execution, tolerance.input, output, precision * tolerance.distance);
 }
 
-/// Calls `adapt()`, which returns a report with a certified distance, with ever stricter operations until that distance is
-/// within the tolerance.
+/// Calls `adapt()`, which returns a report with a certified distance, with ever stricter operations until that distance
+/// is within the tolerance.
 /// \throws Tolerance_error
 template <class Adapt>
 Adaptation_report adapt_within(Tolerance& tolerance, const Adapt& adapt)

@@ -28,10 +28,12 @@ std::size_t run_kernel(const Execution& execution, TriangleMesh& mesh, const Met
   Sweep_counts counts;
   adapt_in_place(Any_execution(execution), mesh, field, np, [&](const auto& policy, auto& surface) {
     auto kernel = make(policy, surface);
-    for (std::size_t i = 0; i < max_sweeps; ++i)
-      if (sweep(kernel, counts) == 0 || !visitor.go_on()) break;
+    Adaptation_report report;
+    counts = Sweep_counts(); // with a tolerance there may be several attempts: the last one counts
+    for (std::size_t i = 0; i < max_sweeps && !report.stopped && sweep(kernel, counts) > 0; ++i)
+      report.stopped = !visitor.go_on();
     Refinement(policy, surface).compact();
-    return Adaptation_report();
+    return report;
   });
   return counts.applied;
 }

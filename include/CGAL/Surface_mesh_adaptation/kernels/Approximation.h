@@ -6,8 +6,8 @@
 // The limit on the normals holds vertices where the surface bends. Once these are a good part of all, a higher bound
 // saves few vertices and makes the faces elsewhere err ever more: that is where it ends.
 //
-// Greedy but for the bound on the cost, which rises by a fixed factor: within a level the order is that of the sweeps, so
-// the result does not depend on the number of threads.
+// Greedy but for the bound on the cost, which rises by a fixed factor: within a level the order is that of the sweeps,
+// so the result does not depend on the number of threads.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_APPROXIMATION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_APPROXIMATION_H

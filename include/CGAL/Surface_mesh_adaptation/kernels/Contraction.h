@@ -99,7 +99,7 @@ private:
   struct Collapse
   {
     Mesh_view::Directed_edge edge;
-    Vector_3 point; ///< of the vertex that is kept
+    Vector_3 point = Vector_3::Zero(); ///< of the vertex that is kept
     double cost;
     Location location; ///< of that vertex on the reference, once the collapse is chosen
   };

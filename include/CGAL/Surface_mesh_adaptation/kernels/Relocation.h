@@ -2,15 +2,15 @@
 //
 // Relocation: moves vertices on the surface to improve the faces around them (paper, section 3).
 //
-// Diffusion towards the centre of mass of the surrounding faces, weighted by the density of the metric (equation 1), and
-// towards where these would be equilateral; over-relaxed, with a step that is halved until no face is made worse than
-// allowed. Curve vertices move along their curve to balance the metric lengths on both sides; corners stay. Where that
-// does nothing for a vertex with a bad face around it, its worst distortion is minimised (minimize_worst.h), until no
-// face is bad.
+// Diffusion towards the centre of mass of the surrounding faces, weighted by the density of the metric (equation 1),
+// and towards where these would be equilateral; over-relaxed, with a step that is halved until no face is made worse
+// than allowed. Curve vertices move along their curve to balance the metric lengths on both sides; corners stay. Where
+// that does nothing for a vertex with a bad face around it, its worst distortion is minimised (minimize_worst.h), until
+// no face is bad.
 //
-// Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Where a face is
-// not flat, the test for folds also looks at the vertices behind the ring: if these may be moving, the vertex is put off
-// until they stand still.
+// Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Where a face
+// is not flat, the test for folds also looks at the vertices behind the ring: if these may be moving, the vertex is put
+// off until they stand still.
 // Invariants: connectivity is not touched; no face is turned away from the surface; the worst face around a vertex
 // never falls below both what it was and `good_quality`, or `good_quality_on_curves` if the vertex lies on one.
 
@@ -237,7 +237,7 @@ private:
       const bool is_a_smooth = a.normal != Vector_3::Zero(), is_b_smooth = b.normal != Vector_3::Zero();
       if (!is_flat_at(v.normal) || (is_a_smooth && !is_flat_at(a.normal)) || (is_b_smooth && !is_flat_at(b.normal)))
         return false;
-      // with no smooth corner in common, nothing is known of the face behind, which matters unless the edge is a feature
+      // with no smooth corner in common, nothing is known of the face behind: it matters unless the edge is a feature
       return is_a_smooth || is_b_smooth || mesh_.is_feature(mesh_.halfedge(a.vertex, b.vertex));
     });
   }

@@ -73,9 +73,9 @@ public:
 private:
   static constexpr std::uint32_t max_border_rounds = 8; // what is left then is examined by the next sweep
 
-  /// The best valid collapse that removes `s`; `h == no_index` if there is none. On a curve, its neighbours count as far
-  /// as they may be seen. A test for folds looks at the faces behind those around `s`: where one of their vertices may
-  /// not be seen, `is_put_off` is set and there is none.
+  /// The best valid collapse that removes `s`; `h == no_index` if there is none. On a curve, its neighbours count as
+  /// far as they may be seen. A test for folds looks at the faces behind those around `s`: where one of their vertices
+  /// may not be seen, `is_put_off` is set and there is none.
   template <class IsSeen>
   Mesh_view::Directed_edge propose(Index s, const IsSeen& is_seen, bool& is_put_off)
   {

@@ -26,9 +26,9 @@ constexpr double min_alignment = 0.5;
 /// Least cosine between two faces at a smooth edge that an operation may create, unless it mends a sharper one.
 constexpr double min_fold = 0.0;
 
-/// Whether moving `v` to `p`, or collapsing it with the vertex there, folds no two faces more than is the case. That takes
-/// a look at the faces behind those around `v`: where `is_seen(w)` denies one of their vertices `w`, which another task
-/// may be changing, `is_put_off` is set and the answer is no.
+/// Whether moving `v` to `p`, or collapsing it with the vertex there, folds no two faces more than is the case. That
+/// takes a look at the faces behind those around `v`: where `is_seen(w)` denies one of their vertices `w`, which
+/// another task may be changing, `is_put_off` is set and the answer is no.
 template <class Surface, class IsSeen>
 bool is_unfolded(const Surface& surface, Index v, const Vector_3& p, const IsSeen& is_seen, bool& is_put_off)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How many vertices a feature curve is to have. An edge on a curve cannot be swapped, and vertices leave the curve in one
-// direction only, so edges that are split and collapsed one by one stay where halving left them: anywhere between
+// How many vertices a feature curve is to have. An edge on a curve cannot be swapped, and vertices leave the curve in
+// one direction only, so edges that are split and collapsed one by one stay where halving left them: anywhere between
 // 1/sqrt 2 and sqrt 2, while the faces beside them want unit edges. What counts here is the mean length over a few
 // neighbouring edges; moves along the curve equalise these.
 
@@ -16,7 +16,7 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// Metric lengths of an edge of a curve below and above which it is collapsed or split, whatever its neighbours are like.
+/// Metric lengths of an edge of a curve below and above which it is collapsed or split, whatever its neighbours.
 constexpr double min_curve_length = 0.5;
 constexpr double max_curve_length = 2.0;
 
@@ -92,8 +92,8 @@ bool is_split_on_curve(const Surface& surface, Index h)
   return window.has_too_few_edges() && length == window.longest;
 }
 
-/// Whether the curve vertex `v` is one of too many, as far as can be seen without the rings of other vertices than those
-/// that `may_pass` allows.
+/// Whether the curve vertex `v` is one of too many, as far as can be seen without the rings of other vertices than
+/// those that `may_pass` allows.
 template <class Surface, class MayPass>
 bool is_collapsed_on_curve(const Surface& surface, Index v, const MayPass& may_pass)
 {
