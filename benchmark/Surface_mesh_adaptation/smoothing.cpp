@@ -103,8 +103,9 @@ double diagonal(const Soup& soup)
   return (high - low).norm();
 }
 
-/// Relocation to the sizes that the mesh has, at most a tenth of the diagonal.
-Soup relocated(const Soup& soup)
+/// Relocation to the sizes that the mesh has, at most a tenth of the diagonal. Sharp edges are kept, unless the surface
+/// is known to have none: the other methods keep none, and folded faces look like some.
+Soup relocated(const Soup& soup, bool keeps_features)
 {
   const Neighbors neighbors = neighbors_of(soup);
   const double hmax = 0.1 * diagonal(soup);
@@ -117,7 +118,8 @@ Soup relocated(const Soup& soup)
   Mesh mesh = shapes::mesh<Mesh>(soup);
   const auto map = mesh.add_property_map<Mesh::Vertex_index, double>("v:size").first;
   for (const auto v : mesh.vertices()) map[v] = sizes[v];
-  SMA::relocate<CGAL::Sequential_tag>(mesh, map, SMA::parameters::number_of_iterations(unsigned(iterations)));
+  SMA::relocate<CGAL::Sequential_tag>(
+    mesh, map, SMA::parameters::number_of_iterations(unsigned(iterations)).detect_features(keeps_features));
   return shapes::soup(mesh);
 }
 
@@ -187,7 +189,8 @@ std::vector<Method> methods()
           {"Taubin", taubin},
           {"HC Laplacian", [](const Soup& s) { return hc_laplacian(s, 1); }},
           {"HC, MeshLab's sign", [](const Soup& s) { return hc_laplacian(s, -1); }},
-          {"relocation", relocated}};
+          {"relocation", [](const Soup& s) { return relocated(s, true); }},
+          {"relocation, no features", [](const Soup& s) { return relocated(s, false); }}};
 }
 
 void print_row(const std::string& shape, const char* method, const Soup& before, const Soup& after)

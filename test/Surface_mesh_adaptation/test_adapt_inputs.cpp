@@ -331,6 +331,17 @@ TEST(Visitor, follows_the_run)
   EXPECT_EQ(report.kernels.size(), 4 * report.rounds); // one row for each kernel and round
 }
 
+TEST(Visitor, follows_the_rounds_that_meet_a_number_of_vertices)
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::torus(24, 12, 0.3));
+  SMA::Curvature_metric_field field(1);
+  field.vertices = 100; // needs corrections
+  Stopping_visitor visitor;
+  const auto report = SMA::adapt_surface_mesh(mesh, field, params::visitor(std::ref(visitor)));
+  EXPECT_EQ(visitor.rounds_done, report.rounds);
+  EXPECT_EQ(report.kernels.size(), 4 * report.rounds);
+}
+
 TEST(Visitor, that_stops_leaves_a_valid_mesh)
 {
   for (std::size_t kernels = 1; kernels < 10; ++kernels) {

@@ -126,11 +126,12 @@ private:
   /// At most `rounds`, while they gain something on `before`.
   void do_rounds(std::size_t rounds, Mesh_statistics before)
   {
-    for (std::size_t i = 0; i < rounds && !report_.stopped; ++i, ++round_) {
+    for (std::size_t i = 0; i < rounds && !report_.stopped; ++i) {
       visitor_.round_begins(round_, round_ + rounds - i);
       do_round();
       report_.after_round.push_back(mesh_statistics(execution_, surface_));
       visitor_.round_done(round_, current());
+      ++round_;
       ++report_.rounds;
       if (!is_improving(before)) break;
       before = current();
