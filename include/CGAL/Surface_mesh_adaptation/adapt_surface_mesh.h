@@ -114,7 +114,7 @@ step at the end: if anything throws, it is as it was.
     \cgalParamDescription{the largest Hausdorff distance between the triangles of the mesh as it is and as it will be:
                           operations that leave it are refused, and the distance is bounded in the end, see
                           `surface_distance.h`. If it is too large all is done again, up to three times, and the visitor
-                          sees the rounds again. Takes ten times the time or more.}
+                          sees the rounds again. Takes several times the time.}
     \cgalParamType{`double`, a length, positive}
     \cgalParamDefault{infinity, that is none}
   \cgalParamNEnd
