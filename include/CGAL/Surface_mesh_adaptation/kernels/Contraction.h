@@ -22,9 +22,9 @@
 #include <CGAL/Surface_mesh_adaptation/Represented_points.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Simplification.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/border_claims.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/collapse.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
-#include <CGAL/Surface_mesh_adaptation/kernels/curve_collapse.h>
-#include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,7 +75,7 @@ public:
   std::size_t sweep(Sweep_counts& counts)
   {
     Sweep_counts local;
-    std::vector<Index> deferred = sweep_blocks(
+    const std::vector<Index> deferred = sweep_blocks(
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
         if (mesh_.is_removed_vertex(v) || least_cost_[v] > bound_) return;
@@ -84,30 +84,26 @@ public:
         bool is_put_off = false;
         const Collapse best = propose(v, [&](Index d) { return block.contains_ring(mesh_, d); }, is_put_off);
         if (is_put_off) list.push_back(v);
-        if (best.edge.h == no_index) return;
+        if (best.h == no_index) return;
         apply(best);
         ++c.applied;
       });
-    for (std::uint32_t round = 0; !deferred.empty() && round < max_border_rounds; ++round)
-      sweep_border(deferred, round, local);
+    sweep_border(deferred, local);
     ++local.sweeps;
     counts += local;
     return local.applied;
   }
 
 private:
-  struct Collapse
+  struct Collapse : Mesh_view::Directed_edge
   {
-    Mesh_view::Directed_edge edge;
     Vector_3 point = Vector_3::Zero(); ///< of the vertex that is kept
-    double cost;
+    double cost = 0;
     Location location; ///< of that vertex on the reference, once the collapse is chosen
   };
 
   static constexpr double none = std::numeric_limits<double>::infinity();
-  static constexpr std::uint32_t max_border_rounds = 8; // what is left then is examined by the next sweep
   static constexpr double precision = 0.02;   // of a location, of the length of the edge
-  static constexpr double min_turn = 0.3;     // cosine between a face and what replaces it
   static constexpr double attraction = 1e-7;  // of the middle of an edge, of that of the planes
 
   /// The planes of the faces around `v` and, through feature edges, those across them.
@@ -135,7 +131,7 @@ private:
   /// Coordinates of which the squares lose little precision.
   Vector_3 local(Index v) const { return surface_.points[v] - origin_; }
 
-  /// The cheapest collapse that removes `s`, if its turn has come and it is allowed; else `edge.h == no_index`, and
+  /// The cheapest collapse that removes `s`, if its turn has come and it is allowed; else `h == no_index`, and
   /// `is_put_off` is set if the ring of the other end is not free for change.
   template <class IsFree>
   Collapse propose(Index s, const IsFree& is_free, bool& is_put_off)
@@ -146,15 +142,15 @@ private:
     for (Collapse& c : collapses) {
       least_cost_[s] = c.cost;
       if (c.cost > bound_) return {};
-      if (!mesh_.is_collapsible(c.edge)) continue;
-      is_put_off = !is_free(mesh_.kept_vertex(c.edge));
+      if (!mesh_.is_collapsible(c)) continue;
+      is_put_off = !is_free(mesh_.kept_vertex(c));
       if (is_put_off) return {};
-      const Merged_star star(mesh_, c.edge);
+      const Merged_star star(mesh_, c);
       if (!is_valid(c, star)) continue;
       const Excess excess = represented_.excess(star, c.point);
       if (excess == Excess::normal) is_held_[s] = 1;
       if (excess != Excess::none) continue;
-      c.location = location_near(s, mesh_.kept_vertex(c.edge), c.point);
+      c.location = location_near(s, mesh_.kept_vertex(c), c.point);
       if (represented_.is_within_distance(surface_.reference().evaluate(c.location).position - c.point)) return c;
     }
     least_cost_[s] = none;
@@ -164,19 +160,11 @@ private:
   /// The edges along which `s` may vanish, the cheapest first.
   void list_collapses(Index s, Ring<Collapse>& collapses) const
   {
-    const auto consider = [&](const Mesh_view::Directed_edge& e) {
-      if (surface_.is_shorter(mesh_.source(e.h), mesh_.target(e.h), thresholds_.min_length) &&
-          may_slide_along(surface_, s, e.h))
-        collapses.push_back(collapse(e));
-    };
-    Index last = no_index;
-    mesh_.for_each_outgoing(s, [&](Index h) {
-      consider({h, true});
-      last = Mesh_view::previous(h);
+    for_each_collapse(surface_, s, thresholds_.min_length, [&](const Mesh_view::Directed_edge& e) {
+      collapses.push_back(collapse(e));
     });
-    if (mesh_.is_border(last)) consider({last, false});
     std::sort(collapses.begin(), collapses.end(), [&](const Collapse& a, const Collapse& b) {
-      return a.cost < b.cost || (a.cost == b.cost && mesh_.kept_vertex(a.edge) < mesh_.kept_vertex(b.edge));
+      return a.cost < b.cost || (a.cost == b.cost && mesh_.kept_vertex(a) < mesh_.kept_vertex(b));
     });
   }
 
@@ -198,7 +186,7 @@ private:
 
   bool is_valid(const Collapse& c, const Merged_star& star) const
   {
-    const Index s = mesh_.vanishing_vertex(c.edge), d = mesh_.kept_vertex(c.edge);
+    const Index s = mesh_.vanishing_vertex(c), d = mesh_.kept_vertex(c);
     if (surface_.vertex_class(s) == Vertex_class::curve && !is_curve_preserved(surface_, s, d)) return false;
     double quality_limit = thresholds_.min_quality, alignment_limit = min_alignment;
     double length_limit = thresholds_.max_length;
@@ -220,7 +208,7 @@ private:
       if (!(quality > quality_limit && quality > 0) ||
           edge_length(surface_.metrics[d], surface_.metrics[x], to_x) > length_limit ||
           edge_length(surface_.metrics[d], surface_.metrics[y], to_y) > length_limit ||
-          surface_.alignment(n, d, x, y) < alignment_limit || n.dot(surface_.normal(f.halfedge)) < min_turn ||
+          surface_.alignment(n, d, x, y) < alignment_limit || n.dot(surface_.normal(f.halfedge)) < min_turn_of_collapse ||
           is_folded(n, Mesh_view::next(f.halfedge)))
         return false;
     }
@@ -237,10 +225,10 @@ private:
 
   void apply(const Collapse& c)
   {
-    const Index s = mesh_.vanishing_vertex(c.edge), d = mesh_.kept_vertex(c.edge);
-    represented_.hand_over(Merged_star(mesh_, c.edge), c.point);
+    const Index s = mesh_.vanishing_vertex(c), d = mesh_.kept_vertex(c);
+    represented_.hand_over(Merged_star(mesh_, c), c.point);
     quadrics_[d] += quadrics_[s];
-    mesh_.collapse(c.edge);
+    mesh_.collapse(c);
     surface_.set(d, surface_.place(c.location));
     surface_.points[d] = c.point;
     mesh_.for_each_neighbor(d, [&](Index x) {
@@ -264,36 +252,20 @@ private:
     return reference.on_curve(of_d.cell, (1 - t) * arc.first + t * arc.second);
   }
 
-  void sweep_border(std::vector<Index>& vertices, std::uint32_t round, Sweep_counts& counts)
+  void sweep_border(const std::vector<Index>& vertices, Sweep_counts& counts)
   {
-    counts.candidates += vertices.size();
-    proposals_.resize(vertices.size());
-    for_each_index(execution_, vertices.size(), [&](std::size_t i) {
-      bool is_put_off = false;
-      proposals_[i] = mesh_.is_removed_vertex(vertices[i]) ? Collapse()
-                                                           : propose(vertices[i], [](Index) { return true; }, is_put_off);
-    }, heavy_chunk_length);
-    const auto valid = pack(execution_, vertices.size(), [&](std::size_t i) { return proposals_[i].edge.h != no_index; });
-    reservations_.resize(execution_, mesh_.number_of_vertices());
-    const auto winners = independent_set(
-      execution_, valid.size(), reservations_,
-      [&](std::size_t i) {
-        const double relative = bound_ > 0 ? proposals_[valid[i]].cost / bound_ : 0;
-        return task_priority((std::min)(7u, std::uint32_t(8 * relative)), vertices[valid[i]], round);
+    sweep_border_by_claims<Collapse>(
+      execution_, mesh_, vertices, reservations_, counts,
+      [&](Index v) {
+        bool is_put_off = false;
+        return propose(v, [](Index) { return true; }, is_put_off);
       },
-      [&](std::size_t i, const auto& claim) {
-        const Mesh_view::Directed_edge& e = proposals_[valid[i]].edge;
-        mesh_.for_each_neighbor(mesh_.vanishing_vertex(e), claim);
-        mesh_.for_each_neighbor(mesh_.kept_vertex(e), claim);
-      });
-    for_each_index(execution_, winners.size(), [&](std::size_t i) { apply(proposals_[valid[winners[i]]]); },
-                   heavy_chunk_length);
-    counts.applied += winners.size();
-    vertices = gather<Index>(execution_, valid.size(), default_chunk_length,
-                             [&](std::size_t begin, std::size_t end, std::vector<Index>& losers) {
-      for (std::size_t i = begin; i < end; ++i)
-        if (!mesh_.is_removed_vertex(vertices[valid[i]])) losers.push_back(vertices[valid[i]]);
-    });
+      [&](const Collapse& c) { return bound_ > 0 ? c.cost / bound_ : 0; },
+      [&](const Collapse& c, const auto& claim) {
+        mesh_.for_each_neighbor(mesh_.vanishing_vertex(c), claim);
+        mesh_.for_each_neighbor(mesh_.kept_vertex(c), claim);
+      },
+      [&](const Collapse& c) { apply(c); });
   }
 
   const Execution& execution_;
@@ -306,7 +278,6 @@ private:
   Buffer<std::uint8_t> is_held_; // by the limit on the normals
   Buffer<double> least_cost_; // of the collapses of each vertex, when it was last looked at
   double bound_ = 0;
-  std::vector<Collapse> proposals_;
   Reservations reservations_;
 };
 

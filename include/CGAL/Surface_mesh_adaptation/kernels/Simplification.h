@@ -15,10 +15,10 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/border_claims.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/collapse.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
-#include <CGAL/Surface_mesh_adaptation/kernels/curve_collapse.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
-#include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>
 #include <utility>
@@ -47,18 +47,20 @@ public:
   std::size_t sweep(Sweep_counts& counts)
   {
     Sweep_counts local;
-    std::vector<Index> deferred = sweep_blocks(
+    const std::vector<Index> deferred = sweep_blocks(
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
         if (mesh_.is_removed_vertex(v) || !is_active(surface_, v, Activity::simplify)) return;
         if (!block.contains_ring(mesh_, v)) return list.push_back(v);
         ++c.candidates;
         bool is_put_off = false;
-        c.applied += examine(v, [&](Index w) { return block.contains(w); }, is_put_off);
+        const Mesh_view::Directed_edge e = examine(v, [&](Index w) { return block.contains(w); }, is_put_off);
         if (is_put_off) list.push_back(v);
+        if (e.h == no_index) return;
+        apply(e);
+        ++c.applied;
       });
-    for (std::uint32_t round = 0; !deferred.empty() && round < max_border_rounds; ++round)
-      sweep_border(deferred, round, local);
+    sweep_border(deferred, local);
     ++local.sweeps;
     counts += local;
     return local.applied;
@@ -71,8 +73,6 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t max_border_rounds = 8; // what is left then is examined by the next sweep
-
   /// The best valid collapse that removes `s`; `h == no_index` if there is none. On a curve, its neighbours count as
   /// far as they may be seen. A test for folds looks at the faces behind those around `s`: where one of their vertices
   /// may not be seen, `is_put_off` is set and there is none.
@@ -81,17 +81,9 @@ private:
   {
     if (surface_.vertex_class(s) == Vertex_class::corner) return {};
     Ring<std::pair<double, Mesh_view::Directed_edge>> short_edges;
-    const double limit = max_length_to_collapse(s, is_seen);
-    const auto consider = [&](const Mesh_view::Directed_edge& e) {
-      if (surface_.is_shorter(mesh_.source(e.h), mesh_.target(e.h), limit) && may_slide_along(surface_, s, e.h))
-        short_edges.emplace_back(surface_.length(e.h), e);
-    };
-    Index last = no_index;
-    mesh_.for_each_outgoing(s, [&](Index h) {
-      consider({h, true});
-      last = Mesh_view::previous(h);
+    for_each_collapse(surface_, s, max_length_to_collapse(s, is_seen), [&](const Mesh_view::Directed_edge& e) {
+      short_edges.emplace_back(surface_.length(e.h), e);
     });
-    if (mesh_.is_border(last)) consider({last, false});
     std::sort(short_edges.begin(), short_edges.end(), [&](const auto& a, const auto& b) {
       return a.first < b.first || (a.first == b.first && mesh_.kept_vertex(a.second) < mesh_.kept_vertex(b.second));
     });
@@ -103,51 +95,30 @@ private:
     return {};
   }
 
+  /// Proposes, and remembers that there is nothing to propose.
   template <class IsSeen>
-  bool examine(Index v, const IsSeen& is_seen, bool& is_put_off)
+  Mesh_view::Directed_edge examine(Index v, const IsSeen& is_seen, bool& is_put_off)
   {
     const Mesh_view::Directed_edge e = propose(v, is_seen, is_put_off);
-    if (e.h != no_index) apply(e);
-    else if (!is_put_off) deactivate(surface_, v, Activity::simplify);
-    return e.h != no_index;
+    if (e.h == no_index && !is_put_off) deactivate(surface_, v, Activity::simplify);
+    return e;
   }
 
-  void sweep_border(std::vector<Index>& vertices, std::uint32_t round, Sweep_counts& counts)
+  void sweep_border(const std::vector<Index>& vertices, Sweep_counts& counts)
   {
-    counts.candidates += vertices.size();
-    proposals_.resize(vertices.size());
-    for_each_index(execution_, vertices.size(), [&](std::size_t i) {
-      bool is_put_off = false;
-      proposals_[i] = mesh_.is_removed_vertex(vertices[i])
-                        ? Mesh_view::Directed_edge()
-                        : propose(vertices[i], [](Index) { return true; }, is_put_off);
-    }, heavy_chunk_length);
-    const auto valid = pack(execution_, vertices.size(), [&](std::size_t i) { return proposals_[i].h != no_index; });
-    for_each_index(execution_, vertices.size(), [&](std::size_t i) {
-      if (proposals_[i].h == no_index) deactivate(surface_, vertices[i], Activity::simplify);
-    });
-    reservations_.resize(execution_, mesh_.number_of_vertices());
-    const auto winners = independent_set(
-      execution_, valid.size(), reservations_,
-      [&](std::size_t i) {
-        const Mesh_view::Directed_edge& e = proposals_[valid[i]];
-        const Index v = vertices[valid[i]];
-        const double relative = surface_.length(e.h) / thresholds_.min_length;
-        return task_priority((std::min)(7u, std::uint32_t(8 * relative)), v, round);
+    using Collapse = Mesh_view::Directed_edge;
+    sweep_border_by_claims<Collapse>(
+      execution_, mesh_, vertices, reservations_, counts,
+      [&](Index v) {
+        bool is_put_off = false;
+        return examine(v, [](Index) { return true; }, is_put_off);
       },
-      [&](std::size_t i, const auto& claim) {
-        claim(vertices[valid[i]]);
-        mesh_.for_each_neighbor(vertices[valid[i]], claim);
-      });
-    for_each_index(execution_, winners.size(), [&](std::size_t i) { apply(proposals_[valid[winners[i]]]); },
-                   heavy_chunk_length);
-    counts.applied += winners.size();
-
-    vertices = gather<Index>(execution_, valid.size(), default_chunk_length,
-                             [&](std::size_t begin, std::size_t end, std::vector<Index>& losers) {
-      for (std::size_t i = begin; i < end; ++i)
-        if (!mesh_.is_removed_vertex(vertices[valid[i]])) losers.push_back(vertices[valid[i]]);
-    });
+      [&](const Collapse& e) { return surface_.length(e.h) / thresholds_.min_length; },
+      [&](const Collapse& e, const auto& claim) {
+        claim(mesh_.vanishing_vertex(e));
+        mesh_.for_each_neighbor(mesh_.vanishing_vertex(e), claim);
+      },
+      [&](const Collapse& e) { apply(e); });
   }
 
   /// The edges along which `s` may vanish are shorter.
@@ -175,13 +146,14 @@ private:
   Star star(Index s) const
   {
     Star star;
+    const bool is_open = mesh_.is_border_vertex(s);
     mesh_.for_each_outgoing(s, [&](Index h) {
       const Index x = mesh_.target(h), y = mesh_.apex(h);
       const Vector_3 n = surface_.normal(s, x, y);
       star.faces.push_back({x, y, n});
       star.quality = (std::min)(star.quality, surface_.quality(s, x, y));
       star.alignment = (std::min)(star.alignment, surface_.alignment(n, s, x, y));
-      star.length = (std::max)({star.length, surface_.length(s, x), mesh_.is_border_vertex(s) ? surface_.length(s, y) : 0});
+      star.length = (std::max)({star.length, surface_.length(s, x), is_open ? surface_.length(s, y) : 0});
     });
     return star;
   }
@@ -205,7 +177,7 @@ private:
       is_flat = is_flat && surface_.is_flat(n, d, f.x, f.y);
       if (!(new_quality > quality_limit && new_quality > 0 && surface_.length(d, f.x) <= limit_to(f.x) &&
             surface_.length(d, f.y) <= limit_to(f.y) && surface_.alignment(n, d, f.x, f.y) >= alignment_limit &&
-            n.dot(f.normal) >= min_turn &&
+            n.dot(f.normal) >= min_turn_of_collapse &&
             (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit)))
         return false;
     }
@@ -227,13 +199,10 @@ private:
     return is_kept && surface_.is_near(faces, surface_.points[s]);
   }
 
-  static constexpr double min_turn = 0.3;        // cosine between a face and what replaces it
-
   const Execution& execution_;
   Surface& surface_;
   Mesh_view& mesh_;
   Simplification_thresholds thresholds_;
-  std::vector<Mesh_view::Directed_edge> proposals_;
   Reservations reservations_;
 };
 

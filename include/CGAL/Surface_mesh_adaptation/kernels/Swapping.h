@@ -89,7 +89,6 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t max_border_rounds = 8;
   static constexpr double min_improvement = 1.0 + 1e-3; // strict, and above rounding
   static constexpr double least_gain = 1e-9;
   static constexpr double min_degree_swap_quality = 0.55; // degrees matter only among good faces

@@ -40,6 +40,9 @@ bool is_unfolded(const Surface& surface, Index v, const Vector_3& p, const IsSee
          surface.sharpest_fold(v, p) >= (std::min)(min_fold, surface.sharpest_fold(v, surface.points[v]));
 }
 
+/// Passes of claims at the borders of blocks; what is left then is examined by the next sweep.
+constexpr std::uint32_t max_border_rounds = 8;
+
 /// Swaps leave alone an edge between two faces of at least this quality: its other diagonal makes two bad ones.
 constexpr double max_improvable_quality = 0.9;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What collapses keep of feature curves.
+// What the kernels that collapse edges share: along which edges a vertex may vanish, and what they keep.
 
-#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_COLLAPSE_H
-#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_COLLAPSE_H
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_COLLAPSE_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_COLLAPSE_H
 
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
 
@@ -11,6 +11,9 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+
+/// Least cosine between a face and the one that replaces it.
+constexpr double min_turn_of_collapse = 0.3;
 
 /// Cosine of the angle that a curve turns at a vertex that vanishes.
 constexpr double min_curve_turn = 0.5;
@@ -23,6 +26,22 @@ template <class Surface>
 bool may_slide_along(const Surface& surface, Index s, Index h)
 {
   return surface.vertex_class(s) == Vertex_class::smooth || surface.mesh.curve[h] == surface.locations[s].cell;
+}
+
+/// Calls `f(e)` for the collapses of `s`, which is no corner, along edges shorter than `max_length` in the metric.
+template <class Surface, class F>
+void for_each_collapse(const Surface& surface, Index s, double max_length, const F& f)
+{
+  const Mesh_view& mesh = surface.mesh;
+  const auto consider = [&](const Mesh_view::Directed_edge& e) {
+    if (surface.is_shorter(mesh.source(e.h), mesh.target(e.h), max_length) && may_slide_along(surface, s, e.h)) f(e);
+  };
+  Index last = no_index;
+  mesh.for_each_outgoing(s, [&](Index h) {
+    consider({h, true});
+    last = Mesh_view::previous(h);
+  });
+  if (mesh.is_border(last)) consider({last, false});
 }
 
 /// Whether the curve through `s` may skip it towards `d`: it must not turn too much there, the new edge must not be an
@@ -49,4 +68,4 @@ bool is_curve_preserved(const Surface& surface, Index s, Index d)
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_COLLAPSE_H
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_COLLAPSE_H
