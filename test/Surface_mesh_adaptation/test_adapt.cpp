@@ -182,7 +182,8 @@ TEST_P(Sharp_mesh, keeps_its_features)
   const Edges before = adapt_with_features(mesh, h, 0); // no round: only detected
   const Soup input = shapes::soup(mesh);
   ASSERT_FALSE(before.empty());
-  for (const auto e : edges(mesh)) put(mesh.property_map<Mesh::Edge_index, bool>("e:feature").first, e, false);
+  const auto is_feature = mesh.add_property_map<Mesh::Edge_index, bool>("e:feature", false).first; // the one that there is
+  for (const auto e : edges(mesh)) put(is_feature, e, false);
   const Edges after = adapt_with_features(mesh, 0.7 * h, SMA::default_number_of_rounds);
   const Soup output = shapes::soup(mesh);
   // both ways: none is lost, none appears; curved ridges are rounder than the polylines of the input
