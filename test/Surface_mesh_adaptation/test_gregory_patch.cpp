@@ -185,15 +185,45 @@ TEST(Gregory_patch, is_flat_where_its_normals_say_so)
   }
 }
 
-TEST(Gregory_patch, without_shape_operators_is_that_of_walton_and_meek)
+TEST(Gregory_patch, without_shape_operators_has_the_mean_conormal_at_the_middle_of_an_edge)
 {
   Random random(6);
+  std::size_t smooth = 0;
   for (int i = 0; i < 200; ++i) {
     Patch p = random_patch(random);
     p.has_shape_operator = {};
-    const double u = random.real(0, 0.5), v = random.real(0, 0.5);
-    EXPECT_EQ(Gregory_reconstruction::evaluate(p, u, v).position,
-              Walton_meek_reconstruction::evaluate(p, u, v).position);
+    p.is_feature = {};
+    const Gregory_patch_3 g(p);
+    const bool is_smooth = g.curve(0) == Curve::smooth && g.curve(1) == Curve::smooth && g.curve(2) == Curve::smooth;
+    if (!is_smooth || g.interior() != Interior::gregory) continue;
+    ++smooth;
+    const auto conormal = [&](std::size_t corner, std::size_t i0, std::size_t i1) -> Vector_3 {
+      return p.normals[corner].cross(g.control_point(0, i1) - g.control_point(0, i0)).normalized();
+    };
+    EXPECT_NEAR(g.normal(0.5, 0).dot(conormal(0, 0, 1) + conormal(1, 3, 4)), 0, 1e-12);
+  }
+  EXPECT_GT(smooth, 50u);
+}
+
+/// How far the middle of a smooth edge over an arc of `angle` of the unit circle lies inside it.
+template <class Reconstruction>
+double depth_of_middle(double angle)
+{
+  Patch p;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double a = (double(i) - 0.5) * angle;
+    p.points[i] = p.normals[i] = Vector_3(std::sin(a), 0, std::cos(a));
+  }
+  p.points[2] = p.points[0] + Vector_3(0, angle, 0);
+  p.normals[2] = p.normals[0];
+  return 1 - Reconstruction::evaluate(p, 0.5, 0).position.norm();
+}
+
+TEST(Gregory_patch, has_circles_over_its_edges)
+{
+  for (const double angle : {0.2, 0.4, 0.8}) {
+    EXPECT_NEAR(depth_of_middle<Walton_meek_reconstruction>(angle), std::pow(angle, 4) / 384, 0.001 * std::pow(angle, 4));
+    EXPECT_LT(std::abs(depth_of_middle<Gregory_reconstruction>(angle)), 1.2e-3 * std::pow(angle, 6));
   }
 }
 

@@ -36,13 +36,14 @@ namespace Surface_mesh_adaptation {
 class Gregory_patch_3
 {
 public:
-  /// Where the conormal at the middle of an edge comes from.
+  /// Where the conormal at the middle of an edge comes from, and how long the handles of its curve are.
   enum class Construction : std::uint8_t
   {
     mid_edge,     ///< cubic Hermite interpolation of the normal, by the shape operators: the distance to a smooth
                   ///< surface is of fourth order in the size of the face, the normal of third; an edge with an end
-                  ///< whose shape operator is not known is as below
-    walton_meek   ///< mean of the conormals at the ends: third and second order
+                  ///< whose shape operator is not known has the conormals below. Handles are those of a circle
+    walton_meek   ///< mean of the conormals at the ends: third and second order. The curve has the least integral of
+                  ///< its squared second derivative
   };
   enum class Curve : std::uint8_t { smooth, feature, straight };
   enum class Interior : std::uint8_t { gregory, cubic };
@@ -58,7 +59,7 @@ public:
     : corners_(p.points), normals_(p.normals)
   {
     std::array<Handles, 3> handles;
-    for (std::size_t i = 0; i < 3; ++i) handles[i] = boundary_curve(p, i);
+    for (std::size_t i = 0; i < 3; ++i) handles[i] = boundary_curve(p, i, construction);
     for (std::size_t i = 0; i < 3; ++i) raise_degree(i, handles[i]);
     interior_ = supports_gregory(p) ? Interior::gregory : Interior::cubic;
     if (interior_ == Interior::cubic) {
@@ -108,12 +109,14 @@ private:
   // taken for noise of the shape operators: on a sphere it takes an edge of 1.4 radii
   static constexpr double largest_correction = 0.25;
 
-  Handles boundary_curve(const Patch& p, std::size_t i)
+  Handles boundary_curve(const Patch& p, std::size_t i, Construction construction)
   {
     const std::size_t j = (i + 1) % 3;
     const Vector_3 e = p.points[j] - p.points[i];
     const Handles h = p.is_feature[i] ? internal::feature_handles(e, p.tangents[i][0], p.tangents[i][1])
-                                      : internal::smooth_handles(e, p.normals[i], p.normals[j]);
+                      : construction == Construction::walton_meek
+                        ? internal::walton_meek_handles(e, p.normals[i], p.normals[j])
+                        : internal::smooth_handles(e, p.normals[i], p.normals[j]);
     curves_[i] = h.is_straight ? Curve::straight : p.is_feature[i] ? Curve::feature : Curve::smooth;
     return h;
   }
