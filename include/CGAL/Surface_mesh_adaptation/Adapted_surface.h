@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -210,6 +211,12 @@ public:
   }
 
   bool has_tolerance() const { return tolerance_ != nullptr; }
+
+  /// What operations keep of the tolerance; infinite if there is none.
+  double tolerance_of_operations() const
+  {
+    return has_tolerance() ? tolerance_->of_operations : std::numeric_limits<double>::infinity();
+  }
 
   /// A corner of a face that may come to be.
   struct Corner

@@ -8,6 +8,7 @@
 
 #include <CGAL/number_type_config.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -44,8 +45,8 @@ With a limit on the normals or on the distance, the collapses that cost least by
 place that is best by these, and go on until the limits allow no more, or until that on the normals holds a fifth of the
 vertices: to go on would save few others, at an error that grows ever faster. In the end the vertices, but for corners,
 are fitted to the surface, so that the faces run through it instead of touching it from one side. A large size in
-`field` leaves everything to the limits. These are kept at the points that they name; where the whole surface is to stay
-within a distance, a `tolerance` that is larger than `maximum_distance` certifies that in the end, or makes it an error.
+`field` leaves everything to the limits. These are kept at the points that they name. A `tolerance` is a limit on the
+distance, too, and is certified in the end for the whole surface, with stricter limits if need be.
 
 \param execution, mesh, field, np as for `adapt_surface_mesh`; `number_of_iterations` is the largest number of sweeps
        (default: 24, or with limits as many as it takes), and the visitor's `go_on` is asked after each of them. Beside:
@@ -76,11 +77,13 @@ auto simplify(const Execution& execution, TriangleMesh& mesh, const MetricField&
   const auto sweep = [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); };
   if constexpr (internal::has_parameter<NamedParameters, internal_np::maximum_normal_deviation_t> ||
                 internal::has_parameter<NamedParameters, internal_np::maximum_distance_t>) {
-    const Deviation_limits limits = internal::deviation_limits(np);
+    const Deviation_limits asked = internal::deviation_limits(np);
     return internal::run_kernel(execution, mesh, field, np, (std::numeric_limits<unsigned>::max)(),
                                 [&](const auto& policy, auto& surface) {
       Simplification_thresholds thresholds;
       thresholds.min_quality = min_quality_of_approximation;
+      Deviation_limits limits = asked; // a tolerance that is missed gets stricter
+      limits.distance = (std::min)(limits.distance, surface.tolerance_of_operations());
       return Approximation(policy, surface, thresholds, limits);
     }, sweep);
   } else
