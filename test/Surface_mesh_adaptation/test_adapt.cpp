@@ -600,6 +600,40 @@ TEST(Hausdorff_distance_bound, is_near_what_is_known)
   EXPECT_NEAR(bound(square, spike, 1e-6), 0.5, 1e-6);
 }
 
+double area(const SMA::internal::Triangle_piece& piece)
+{
+  Vector_3 twice = Vector_3::Zero();
+  for (std::size_t i = 2; i < piece.corners.size(); ++i)
+    twice += (piece.corners[i - 1] - piece.corners[0]).cross(piece.corners[i] - piece.corners[0]);
+  return twice.norm() / 2;
+}
+
+TEST(Triangle_piece, is_cut_into_smaller_parts_or_not_at_all)
+{
+  shapes::Random random(3);
+  std::size_t cuts = 0;
+  for (int i = 0; i < 2000; ++i) {
+    SMA::internal::Triangle_piece piece{{random.vector(), random.vector(), random.vector()}, 0};
+    if (i % 2 == 0) { // a fourth corner, hardly off the third
+      const Vector_3 inside = piece.center() - piece.corners[2];
+      piece.corners[1] += 0.1 * inside;
+      piece.corners.push_back(piece.corners[2] + 1e-8 * (piece.corners[0] - piece.corners[1]));
+    }
+    const Vector_3 origin = piece.corners[2] + (i % 3) * 1e-9 * random.vector();
+    const Vector_3 along = i % 4 < 2 ? random.vector() : Vector_3(piece.corners[2] - piece.corners[1]);
+    const Vector_3 normal = along.cross(random.vector());
+    const auto parts = SMA::internal::cut(piece, origin, normal);
+    EXPECT_NEAR(area(parts[0]) + area(parts[1]), area(piece), 1e-6);
+    if (parts[0].corners.empty() || parts[1].corners.empty()) continue;
+    ++cuts;
+    for (const auto& part : parts) {
+      EXPECT_GE(part.corners.size(), 3u);
+      EXPECT_LT(area(part), area(piece));
+    }
+  }
+  EXPECT_GT(cuts, 200u);
+}
+
 TEST(Triangle_tree, finds_the_nearest_triangle_of_brute_force)
 {
   shapes::Random random(31);

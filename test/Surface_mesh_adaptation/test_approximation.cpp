@@ -223,7 +223,7 @@ TEST(Simplify_within_limits, keeps_a_tolerance_whatever_the_limits_allow)
     const distances::Original original(input);
     Mesh mesh = input;
     SMA::simplify(mesh, no_size, limits.tolerance(tolerance * original.diagonal()));
-    EXPECT_LT(num_vertices(mesh), num_vertices(input) / 2);
+    EXPECT_LT(num_vertices(mesh), num_vertices(input) / 4);
     EXPECT_LE(original.distance_to(mesh, 20000).largest, tolerance * original.diagonal());
   };
   const Mesh torus = shapes::mesh<Mesh>(shapes::torus(60, 22, 0.3)), part = real_mesh<Mesh>("rotor_small");

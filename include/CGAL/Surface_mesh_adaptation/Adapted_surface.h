@@ -210,6 +210,9 @@ public:
     return place(best.location, best.point);
   }
 
+  /// The point of the surface where a vertex with the location `l` is put.
+  Vector_3 point(const Location& l) const { return near_input(l, reference_->evaluate(l).position); }
+
   bool has_tolerance() const { return tolerance_ != nullptr; }
 
   /// What operations keep of the tolerance; infinite if there is none.
@@ -227,8 +230,9 @@ public:
 
   Corner corner(Index v) const { return {locations[v], points[v]}; }
 
-  /// Whether a face with these corners stays within the tolerance of the input. \pre `has_tolerance()`
-  bool keeps_tolerance(const Corner& a, const Corner& b, const Corner& c) const
+  /// Whether a face with these corners stays within the tolerance of the input. `false` may be wrong, the less often the
+  /// more pieces of the face are looked at. \pre `has_tolerance()`
+  bool keeps_tolerance(const Corner& a, const Corner& b, const Corner& c, std::size_t max_pieces = 64) const
   {
     Ring<std::size_t> guesses;
     for (const Corner* corner : {&a, &b, &c}) {
@@ -236,7 +240,7 @@ public:
       const auto of_vertex = [&] { return reference_->mesh.outgoing[reference_->interpolation(l).vertices[0]]; };
       guesses.push_back(tolerance_->input.place(l.kind == Vertex_class::smooth ? l.cell : Mesh_view::face(of_vertex())));
     }
-    return is_within(tolerance_->input, {a.point, b.point, c.point}, tolerance_->of_operations, guesses);
+    return is_within(tolerance_->input, {a.point, b.point, c.point}, tolerance_->of_operations, guesses, max_pieces);
   }
 
   /// Whether faces are not too far from a point of the surface as it was for the input to stay within the tolerance of
@@ -301,13 +305,13 @@ private:
   Placed_vertex<Metric> place(const Location& l, const Surface_point& p) const
   {
     const Metric metric = background_->at(*reference_, l, p);
-    const Vector_3 point = tolerance_ ? near_input(l, p.position) : p.position;
-    return {l, point, p.normal, scale_ == 1 ? metric : scaled(metric, scale_)};
+    return {l, near_input(l, p.position), p.normal, scale_ == 1 ? metric : scaled(metric, scale_)};
   }
 
   /// `p` drawn towards the point of the input that it lies above, where the patch bulges by much of the tolerance.
   Vector_3 near_input(const Location& l, const Vector_3& p) const
   {
+    if (!has_tolerance()) return p;
     const Vector_3 flat = reference_->flat_point(l), bulge = p - flat;
     const double length = bulge.norm(), largest = share_of_bulge * tolerance_->of_operations;
     return length > largest ? Vector_3(flat + largest / length * bulge) : p;

@@ -235,7 +235,7 @@ private:
 
   void add(Index i, Index f, double u, double v, double weight)
   {
-    points_[i] = surface_.reference().evaluate({Vertex_class::smooth, f, u, v}).position;
+    points_[i] = surface_.point({Vertex_class::smooth, f, u, v});
     weights_[i] = weight;
     link(i, f);
   }

@@ -277,18 +277,22 @@ struct Triangle_piece
   }
 };
 
-/// The parts of `piece` on both sides of a plane, the one that `normal` points to last. Either may have no corner. What
-/// sticks out by rounding is not cut off.
+/// The parts of `piece` on both sides of a plane, the one that `normal` points to last. Either may have no corner: what
+/// sticks out by rounding is not cut off, so that each part that there is is smaller than the piece.
 inline std::array<Triangle_piece, 2> cut(const Triangle_piece& piece, const Vector_3& origin, const Vector_3& normal)
 {
-  std::array<Triangle_piece, 2> parts{Triangle_piece{{}, piece.guess}, Triangle_piece{{}, piece.guess}};
   const std::size_t n = piece.corners.size();
-  double largest = 0;
-  for (const Vector_3& p : piece.corners) largest = (std::max)(largest, std::abs(normal.dot(p - origin)));
-  const double on_plane = 1e-6 * largest;
+  boost::container::small_vector<double, 10> height;
+  for (const Vector_3& p : piece.corners) height.push_back(normal.dot(p - origin));
+  const auto [lowest, highest] = std::minmax_element(height.begin(), height.end());
+  const double on_plane = 1e-6 * (std::max)(-*lowest, *highest);
+  const Triangle_piece nothing{{}, piece.guess};
+  if (*highest <= on_plane) return {piece, nothing};
+  if (*lowest >= -on_plane) return {nothing, piece};
+  std::array<Triangle_piece, 2> parts{nothing, nothing};
   for (std::size_t i = 0; i < n; ++i) {
     const Vector_3 &p = piece.corners[i], &q = piece.corners[(i + 1) % n];
-    const double dp = normal.dot(p - origin), dq = normal.dot(q - origin);
+    const double dp = height[i], dq = height[(i + 1) % n];
     if (dp <= on_plane) parts[0].corners.push_back(p);
     if (dp >= -on_plane) parts[1].corners.push_back(p);
     if ((std::min)(dp, dq) < -on_plane && (std::max)(dp, dq) > on_plane) {
@@ -296,8 +300,6 @@ inline std::array<Triangle_piece, 2> cut(const Triangle_piece& piece, const Vect
       for (Triangle_piece& part : parts) part.corners.push_back(x);
     }
   }
-  for (Triangle_piece& part : parts)
-    if (part.corners.size() < 3) part.corners.clear(); // no more than the border of the other part
   return parts;
 }
 
@@ -340,7 +342,7 @@ void split(const Triangle_piece& piece, const Triangle_points& t, const Use& use
 /// pieces of `t` are looked at. `guesses` are places of triangles of the surface near the corners.
 template <class Guesses>
 bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit, const Guesses& guesses,
-               std::size_t max_pieces = 64)
+               std::size_t max_pieces)
 {
   const double squared_limit = limit * limit;
   Ring<internal::Triangle_piece> pieces{{{t.begin(), t.end()}, 0}};

@@ -104,6 +104,7 @@ private:
 
   static constexpr double none = std::numeric_limits<double>::infinity();
   static constexpr double precision = 0.02;   // of a location, of the length of the edge
+  static constexpr std::size_t max_pieces = 1024; // of a face, which may stand for hundreds
   static constexpr double attraction = 1e-7;  // of the middle of an edge, of that of the planes
 
   /// The planes of the faces around `v` and, through feature edges, those across them.
@@ -151,7 +152,7 @@ private:
       if (excess == Excess::normal) is_held_[s] = 1;
       if (excess != Excess::none) continue;
       c.location = location_near(s, mesh_.kept_vertex(c), c.point);
-      if (represented_.is_within_distance(surface_.reference().evaluate(c.location).position - c.point)) return c;
+      if (represented_.is_within_distance(surface_.point(c.location) - c.point) && keeps_tolerance(c, star)) return c;
     }
     least_cost_[s] = none;
     return {};
@@ -213,6 +214,15 @@ private:
         return false;
     }
     return true;
+  }
+
+  bool keeps_tolerance(const Collapse& c, const Merged_star& star) const
+  {
+    if (!surface_.has_tolerance()) return true;
+    return std::all_of(star.faces().begin(), star.faces().end(), [&](const Merged_star::Face& f) {
+      return f.vanishes || surface_.keeps_tolerance({c.location, c.point}, surface_.corner(mesh_.target(f.halfedge)),
+                                                    surface_.corner(mesh_.apex(f.halfedge)), max_pieces);
+    });
   }
 
   /// Whether a face with the normal `n` makes a sharp fold, that was not there, with the face behind the edge of `h`.
