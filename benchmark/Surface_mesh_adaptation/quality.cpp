@@ -3,7 +3,7 @@
 // Conformity and quality of the adapted meshes of CGAL's data, as a table: edges of half the mean length of the input,
 // and sizes from the curvature for a thousandth of the diagonal, isotropic and anisotropic.
 //
-//     quality [MESH...]
+//     quality [--gradation RATIO] [MESH...]
 
 #include "common.h"
 
@@ -27,7 +27,7 @@ void print(const SMA::Mesh_statistics& s)
   std::printf(" %zu | %.2f | %.3f | %.3f |", std::size_t(s.vertices), 100 * s.in_range, s.mean_quality, s.min_quality);
 }
 
-void print_row(const std::string& name)
+void print_row(const std::string& name, double gradation)
 {
   const Mesh mesh = bench::read_mesh(name);
   std::printf("| %s |", name.c_str());
@@ -35,6 +35,7 @@ void print_row(const std::string& name)
   print(uniform);
   std::printf(" %.1f |", uniform.min_angle);
   SMA::Curvature_metric_field curvature(0.001);
+  curvature.gradation = gradation;
   print(adapt(mesh, curvature));
   curvature.anisotropic = true;
   print(adapt(mesh, curvature));
@@ -45,13 +46,15 @@ void print_row(const std::string& name)
 
 int main(int argc, char* argv[])
 {
-  std::vector<std::string> names(argv + 1, argv + argc);
+  const bool is_given = argc > 2 && std::string(argv[1]) == "--gradation";
+  const double gradation = is_given ? std::stod(argv[2]) : SMA::default_gradation;
+  std::vector<std::string> names(argv + (is_given ? 3 : 1), argv + argc);
   if (names.empty())
     names = {"elephant", "bunny00", "armadillo", "camel", "knot2", "fandisk", "anchor_dense", "couplingdown",
              "rotor_small", "turbine", "blade", "lion-head", "mannequin-devil"};
   std::printf("| mesh | uniform: vertices | in range [%%] | mean | worst | smallest angle "
               "| curvature: vertices | in range | mean | worst | anisotropic: vertices | in range | mean | worst |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const std::string& name : names) print_row(name);
+  for (const std::string& name : names) print_row(name, gradation);
   return 0;
 }
