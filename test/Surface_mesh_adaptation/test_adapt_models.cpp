@@ -112,7 +112,7 @@ TYPED_TEST(Model, takes_sizes_from_a_map_and_gives_the_metric_back)
     ASSERT_EQ(metrics.count(v), 1u);
     const double size = 1 / std::sqrt(metrics[v][0]);
     const double z = CGAL::to_double(get(CGAL::vertex_point, mesh, v).z());
-    if (std::abs(z) > 0.3) {
+    if (std::abs(z) > 0.33) { // longer than any edge: the sizes there are not mixed
       EXPECT_NEAR(size, z > 0 ? 0.1 : 0.3, 1e-6);
     }
   }
