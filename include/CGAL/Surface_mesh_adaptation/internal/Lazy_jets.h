@@ -70,8 +70,8 @@ private:
   std::unique_ptr<std::atomic<std::uint8_t>[]> state_;
 };
 
-/// The jet of the sector that the corner `h` belongs to, with the normal of Max and without a shape operator where no
-/// fit is good enough. What is given counts at smooth vertices: others may have several normals.
+/// The jet of the sector that the corner `h` belongs to, with the mean normal of its facets and without a shape operator
+/// where no fit is good enough. What is given counts at smooth vertices: others may have several normals.
 inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Features& features,
                         const Corner_normals& normals, const Given_jets& given, Index h)
 {
@@ -79,9 +79,9 @@ inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& poin
   Jet jet{normals.normals[sector], Metric_tensor_3(0, 0, 0, 0, 0, 0), false};
   for_each_sector(mesh, v, [&](Index first, std::size_t n) {
     if (normals.of_corner[first] != sector) return;
-    Jet_of_sector fit{jet.normal, jet.shape_operator};
-    if (fit_jet(mesh, points, first, n, jet.normal, Jet_fit::exact, fit) != Fit_degree::none)
-      jet = {fit.normal, fit.shape_operator, true};
+    Jet_of_sector fit;
+    const Fit_degree degree = fit_jet(mesh, points, first, n, normals.normals[sector], Jet_fit::exact, fit);
+    jet = {fit.normal, fit.shape_operator, degree != Fit_degree::none};
     jet.normal = normal_on_features(mesh, features, first, n, jet.normal);
   });
   if (features.vertex_class[v] != Vertex_class::smooth) return jet;
