@@ -12,7 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Cholesky.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Cubic_fit.h>
-#include <CGAL/Surface_mesh_adaptation/internal/Facet_normals.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Plausible_jets.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Sector_neighborhood.h>
 #include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
@@ -42,7 +42,7 @@ struct Corner_jets
   Buffer<Metric_tensor_3> shape_operators;
   Buffer<Index> of_corner;  ///< index into both for each corner
 
-  /// How many sectors were settled by which fit; the rest has the mean normal of its facets and what the normals around say.
+  /// How many sectors were settled by which fit; the rest has the normal of Max and what the normals around say.
   std::size_t cubic_fits = 0, quadratic_fits = 0, fallbacks = 0;
 
   struct Jet
@@ -142,82 +142,15 @@ inline void subtract_fourth_order(Cubic_fit& fit, const Sector_neighborhood& nei
   }
 }
 
-/// What the facets around a vertex say of its normal, against which fits are held. Where the samples lie on a few lines,
-/// as on a cylinder of long faces, a polynomial through all of them may turn between the lines at will.
-class Plausible_jets
-{
-public:
-  /// In the sector of the `n` faces from that of `first` on. Where features or the boundary bound it, the vertex is at
-  /// the margin of its facets, so that those around its `neighbors` count, too.
-  Plausible_jets(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first, std::size_t n,
-                 const Sector_neighborhood& neighbors)
-    : mesh_(mesh), points_(points), vertex_(points[mesh.source(first)])
-  {
-    const bool is_open = mesh.is_feature(first) || mesh.is_border(first);
-    for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h)) {
-      sector_.add(face_normal(mesh, points, h));
-      facets_.push_back(h);
-    }
-    nearby_ = sector_;
-    for (std::size_t i = 0; is_open && i < neighbors.size(); ++i)
-      neighbors.for_each_face_around(i, [&](Index h) {
-        nearby_.add(face_normal(mesh, points, h));
-        facets_.push_back(h);
-      });
-  }
-
-  /// The mean normal of the sector, or `otherwise` if it has none.
-  Vector_3 mean(const Vector_3& otherwise) const { return sector_.empty() ? otherwise : sector_.mean(); }
-
-  /// Whether the facets would have nearly the same mean normal if their corners were on the paraboloid of `jet`: what is
-  /// missing is less than they scatter in that direction, or than the square of their scatter, which is of the order
-  /// of what a paraboloid leaves out.
-  bool contains(const Jet_of_sector& jet) const
-  {
-    if (sector_.empty() || sector_.variance() > largest_variance) return false;
-    const Vector_3 tilt = mean_on(jet) - nearby_.mean();
-    const double tilt2 = tilt.squaredNorm(), variance = nearby_.variance();
-    if (tilt2 <= rounding) return true;
-    return tilt2 <= nearby_.variance(tilt / std::sqrt(tilt2)) + variance * variance;
-  }
-
-private:
-  static constexpr double largest_variance = 0.18; // 25 degrees: beyond, fits are farther off than the mean
-  static constexpr double rounding = 1e-16;
-
-  /// The mean normal of the facets with their corners on the paraboloid of `jet`.
-  Vector_3 mean_on(const Jet_of_sector& jet) const
-  {
-    const auto on_jet = [&](Index v) -> Vector_3 {
-      const Vector_3 d = points_[v] - vertex_;
-      return d - (d.dot(jet.normal) + d.dot(jet.shape_operator * d) / 2) * jet.normal;
-    };
-    Vector_3 sum = Vector_3::Zero();
-    for (const Index h : facets_) {
-      const Vector_3 p = on_jet(mesh_.source(h));
-      sum += (on_jet(mesh_.target(h)) - p).cross(on_jet(mesh_.apex(h)) - p);
-    }
-    return sum.normalized();
-  }
-
-  const Mesh_view& mesh_;
-  const std::vector<Vector_3>& points_;
-  Vector_3 vertex_;
-  Facet_normals sector_, nearby_; ///< the latter: also beyond, at the margin
-  Ring<Index> facets_;            ///< a halfedge of each nearby one
-};
-
 enum class Fit_degree : std::uint8_t { none, quadratic, cubic };
 
 /// The fit over the neighbourhood of a sector with the normal `normal` of Max: of the highest degree that has samples
-/// enough and a normal within 30 degrees of `normal` which the facets allow; if there is none, the mean normal of the
-/// facets and a shape operator of zero.
+/// enough, a normal within 30 degrees of `normal`, and agrees with the facets; if there is none, `jet` stays.
 inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first, std::size_t n,
                           const Vector_3& normal, Jet_fit samples, Jet_of_sector& jet)
 {
   Sector_neighborhood neighbors(mesh, first, n);
   const Plausible_jets plausible(mesh, points, first, n, neighbors);
-  jet = {plausible.mean(normal), Metric_tensor_3(0, 0, 0, 0, 0, 0)};
   grow_for_cubic_fit(neighbors);
   const Tangent_frame frame(points[mesh.source(first)], normal);
   const double radius = mean_distance(neighbors, points, frame.origin);
@@ -233,7 +166,7 @@ inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& po
     if (!solved || !(f.gradient.squaredNorm() <= largest_squared_slope) || !f.hessian.allFinite()) return false;
     if (f.hessian.lpNorm<Eigen::Infinity>() <= rounding) f.hessian.setZero();
     const Jet_of_sector fitted = jet_of_graph(frame, f, radius);
-    if (!plausible.contains(fitted)) return false;
+    if (!plausible.contains(fitted.normal, fitted.shape_operator)) return false;
     jet = fitted;
     return true;
   };
@@ -310,8 +243,8 @@ inline Metric_tensor_3 mean_shape_operator(const Mesh_view& mesh, const std::vec
 /// be reached without crossing a feature: cubic, with normals of third and shape operators of second order in the
 /// length of the edges. A fit with too few or ill spread neighbours, or with a normal more than 30 degrees off or farther
 /// off the facets around than these are off each other, falls back to the quadratic one of the same samples, then to the
-/// mean normal of the facets, weighted by area, with the shape operators of the faces around (Rusinkiewicz 2004), which
-/// are also those of `Jet_fit::noisy`. Always finite.
+/// normal of Max with the shape operators of the faces around (Rusinkiewicz 2004), which are also those of
+/// `Jet_fit::noisy`. Always finite.
 ///
 /// \pre `mesh.curve` is set (Features.h), all points are finite
 /// \complexity O(n), about 2 microseconds a vertex
@@ -332,7 +265,7 @@ Corner_jets estimate_jets(const Execution& execution, const Mesh_view& mesh, con
     }, heavy_chunk_length);
   };
   for_each_sector([&](Index id, Index first, std::size_t n) {
-    internal::Jet_of_sector jet;
+    internal::Jet_of_sector jet{jets.normals[id], Metric_tensor_3(0, 0, 0, 0, 0, 0)};
     degree[id] = internal::fit_jet(mesh, points, first, n, jets.normals[id], samples, jet);
     jets.normals[id] = jet.normal;
     jets.shape_operators[id] = jet.shape_operator;

@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/Features.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/feature_normals.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Facet_normals.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_jets.h>
 
 #include <atomic>
@@ -70,6 +71,16 @@ private:
   std::unique_ptr<std::atomic<std::uint8_t>[]> state_;
 };
 
+/// The normal of the `n` facets of a sector from that of `first` on that is off them least, in the mean over their area,
+/// so that patches leave them least; `otherwise` if they have none.
+inline Vector_3 mean_normal(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first, std::size_t n,
+                            const Vector_3& otherwise)
+{
+  Facet_normals facets;
+  for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h)) facets.add(face_normal(mesh, points, h));
+  return facets.empty() ? otherwise : facets.mean();
+}
+
 /// The jet of the sector that the corner `h` belongs to, with the mean normal of its facets and without a shape operator
 /// where no fit is good enough. What is given counts at smooth vertices: others may have several normals.
 inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Features& features,
@@ -79,9 +90,11 @@ inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& poin
   Jet jet{normals.normals[sector], Metric_tensor_3(0, 0, 0, 0, 0, 0), false};
   for_each_sector(mesh, v, [&](Index first, std::size_t n) {
     if (normals.of_corner[first] != sector) return;
-    Jet_of_sector fit;
-    const Fit_degree degree = fit_jet(mesh, points, first, n, normals.normals[sector], Jet_fit::exact, fit);
-    jet = {fit.normal, fit.shape_operator, degree != Fit_degree::none};
+    Jet_of_sector fit{jet.normal, jet.shape_operator};
+    if (fit_jet(mesh, points, first, n, jet.normal, Jet_fit::exact, fit) != Fit_degree::none)
+      jet = {fit.normal, fit.shape_operator, true};
+    else
+      jet.normal = mean_normal(mesh, points, first, n, jet.normal);
     jet.normal = normal_on_features(mesh, features, first, n, jet.normal);
   });
   if (features.vertex_class[v] != Vertex_class::smooth) return jet;
