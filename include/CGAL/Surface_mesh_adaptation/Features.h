@@ -28,8 +28,8 @@ struct Feature_curve
   std::vector<Index> vertices;
   std::vector<double> arc_length;  ///< of each vertex from the first, along the chords
   std::vector<Vector_3> tangents;  ///< unit, in the direction of the chain
-  std::vector<std::array<Vector_3, 2>> ends; ///< tangents at the ends of each edge: as above, or the edge's own direction
-                                             ///< where the curve stays on it
+  std::vector<std::array<Vector_3, 2>> ends; ///< tangents at the ends of each edge: as above, or the direction of the
+                                             ///< edge where the curve stays on it
   bool closed = false;             ///< whether the chain is a cycle that no corner interrupts
 
   bool is_closed() const { return closed; }

@@ -241,10 +241,10 @@ inline Metric_tensor_3 mean_shape_operator(const Mesh_view& mesh, const std::vec
 /// Estimates the normals and shape operators of all sectors from the points alone, each by a height function over the
 /// plane across the normal of Max (Cazals, Pouget 2005) through the vertex, fitted to the two rings around it that can
 /// be reached without crossing a feature: cubic, with normals of third and shape operators of second order in the
-/// length of the edges. A fit with too few or ill spread neighbours, or with a normal more than 30 degrees off or farther
-/// off the facets around than these are off each other, falls back to the quadratic one of the same samples, then to the
-/// normal of Max with the shape operators of the faces around (Rusinkiewicz 2004), which are also those of
-/// `Jet_fit::noisy`. Always finite.
+/// length of the edges. A fit with too few or ill spread neighbours, with a normal more than 30 degrees off, or that
+/// does not agree with the facets around falls back to the quadratic one of the same samples, then to the normal of Max
+/// with the shape operators of the faces around (Rusinkiewicz 2004), which are also those of `Jet_fit::noisy`. Always
+/// finite.
 ///
 /// \pre `mesh.curve` is set (Features.h), all points are finite
 /// \complexity O(n), about 2 microseconds a vertex

@@ -19,8 +19,8 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 namespace internal {
 
-/// The normals and shape operators at a vertex that agree with the facets around it. Fits need not: where the samples lie
-/// on a few lines, as on a cylinder of long faces, a polynomial through all of them may turn between the lines at will.
+/// The normals and shape operators at a vertex that agree with the facets around it. Fits need not: where the samples
+/// lie on a few lines, as on a cylinder of long faces, a polynomial may turn between the lines at will.
 class Plausible_jets
 {
 public:
