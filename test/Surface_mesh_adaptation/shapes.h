@@ -241,6 +241,24 @@ inline Soup capped_cylinder(std::size_t around, std::size_t up, double height)
   return s;
 }
 
+/// What `n` copies of the line through the points (radius, height) of `profile` sweep around the z-axis, upwards.
+inline Soup revolved(const std::vector<std::array<double, 2>>& profile, std::size_t n)
+{
+  Soup s;
+  for (const auto& [radius, height] : profile)
+    for (std::size_t i = 0; i < n; ++i) {
+      const double angle = 2 * pi * double(i) / double(n);
+      s.points.push_back(Vector_3(radius * std::cos(angle), radius * std::sin(angle), height));
+    }
+  for (std::size_t row = 0; row + 1 < profile.size(); ++row)
+    for (std::size_t i = 0; i < n; ++i) {
+      const Index a = Index(row * n + i), b = Index(row * n + (i + 1) % n), c = a + Index(n), d = b + Index(n);
+      s.triangles.push_back({a, b, d});
+      s.triangles.push_back({a, d, c});
+    }
+  return s;
+}
+
 /// The cube [-1, 1]^3 with `n` times `n` quadrilaterals on each side.
 inline Soup cube(std::size_t n)
 {

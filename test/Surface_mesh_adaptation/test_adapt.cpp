@@ -239,7 +239,7 @@ TEST_P(Sharp_mesh, does_not_decay_over_eight_runs_on_its_own_output)
   const Soup now = shapes::soup(mesh);
   const Edges edges_now = marked_edges(mesh, is_feature);
   const auto before = quantiles_of_quality(once), after = quantiles_of_quality(now);
-  const double noise = is_ambiguous ? 0.04 : 0.01; // a tenth of a per cent of couplingdown is ten faces
+  const double noise = is_ambiguous ? 0.08 : 0.01; // a tenth of a per cent of couplingdown is ten faces
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_GE(after[i], before[i] - noise) << "quantile " << i;
   EXPECT_LE(number_of_corners(now, edges_now), number_of_corners(once, edges_once));
   EXPECT_LT(largest_distance(now, edges_now, once, edges_once), 0.1 * field.size);
@@ -307,6 +307,66 @@ TEST(Adapt, reaches_the_size_and_a_good_quality_on_analytic_surfaces)
     EXPECT_GT(checks::mean_quality(result), name == "cube" ? 0.85 : name == "capped cylinder" ? 0.93 : 0.95);
     EXPECT_GT(checks::least_quality(result), 0.3);
   }
+}
+
+/// A cylinder of radius 1 with a rounded edge and the rim of a cap.
+struct Rounded_cylinder
+{
+  double height = 4, rounding = 0.2;
+
+  /// Facets as long as half of the cylinder.
+  Soup long_faces() const
+  {
+    std::vector<std::array<double, 2>> profile{{1, 0}, {1, height / 2}, {1, height}};
+    for (const double angle : {shapes::pi / 6, shapes::pi / 3, shapes::pi / 2})
+      profile.push_back({1 - rounding * (1 - std::cos(angle)), height + rounding * std::sin(angle)});
+    profile.push_back({0.6, height + rounding});
+    return shapes::revolved(profile, 40);
+  }
+
+  double distance(const Vector_3& p) const
+  {
+    const double radius = std::hypot(p[0], p[1]), x = radius - (1 - rounding), z = p[2] - height;
+    return std::abs(z < 0 ? radius - 1 : x < 0 ? z - rounding : std::hypot(x, z) - rounding);
+  }
+
+  /// The largest, of the middles of the edges.
+  double distance(const Soup& soup) const
+  {
+    double largest = 0;
+    checks::for_each_edge(soup.triangles, [&](Index a, Index b) {
+      largest = (std::max)(largest, distance((soup.points[a] + soup.points[b]) / 2));
+    });
+    return largest;
+  }
+};
+
+/// Where all neighbours are on a few lines, polynomials through them left the surface by ten times as much.
+TEST(Adapt, stays_on_a_cylinder_of_long_faces)
+{
+  const Rounded_cylinder cylinder;
+  const Soup before = cylinder.long_faces();
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.1));
+  expect_same_surface(before, mesh);
+  EXPECT_LT(cylinder.distance(shapes::soup(mesh)), 1.5 * cylinder.distance(before));
+}
+
+/// A hole with twelve corners, of which a sliver fills one: the circle through the others would turn it over.
+TEST(Adapt, divides_the_edge_of_a_sliver_that_fills_an_arc)
+{
+  Soup before = shapes::revolved({{1, 0}, {2, 0}}, 12);
+  before.triangles.push_back({2, 1, 0});
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  const double size = 0.1;
+  SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size));
+  expect_same_surface(before, mesh);
+  const Soup after = shapes::soup(mesh);
+  double longest = 0;
+  checks::for_each_edge(after.triangles, [&](Index a, Index b) {
+    longest = (std::max)(longest, (after.points[a] - after.points[b]).norm());
+  });
+  EXPECT_LT(longest, 2 * size);
 }
 
 TEST(Adapt, reports_what_it_reached)

@@ -8,8 +8,10 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/internal/cubic_curve.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -26,6 +28,8 @@ struct Feature_curve
   std::vector<Index> vertices;
   std::vector<double> arc_length;  ///< of each vertex from the first, along the chords
   std::vector<Vector_3> tangents;  ///< unit, in the direction of the chain
+  std::vector<std::array<Vector_3, 2>> ends; ///< tangents at the ends of each edge: as above, or the direction of the
+                                             ///< edge where the curve stays on it
   bool closed = false;             ///< whether the chain is a cycle that no corner interrupts
 
   bool is_closed() const { return closed; }
@@ -73,8 +77,9 @@ struct Features
   const Vector_3& tangent(Index curve, Index v, Index w) const
   {
     const Feature_curve& c = curves[curve];
-    if (vertex_class[v] == Vertex_class::curve) return c.tangents[node_of_vertex[v].index];
-    return c.vertices.front() == v && c.vertices[1] == w ? c.tangents.front() : c.tangents.back();
+    const std::size_t i = vertex_class[v] == Vertex_class::curve ? node_of_vertex[v].index : 0;
+    if (c.vertices[i] == v && c.vertices[i + 1] == w) return c.ends[i][0];
+    return vertex_class[v] == Vertex_class::curve && i > 0 ? c.ends[i - 1][1] : c.ends.back()[1];
   }
 };
 
@@ -286,6 +291,7 @@ private:
     }
     c.vertices = std::move(chain);
     for (std::size_t i = 0; i < c.vertices.size(); ++i) c.tangents.push_back(tangent(c, i));
+    for (std::size_t i = 0; i + 1 < c.vertices.size(); ++i) c.ends.push_back(ends(c, i));
     features_.curves.push_back(std::move(c));
   }
 
@@ -311,6 +317,28 @@ private:
     if (!(l1 * l2 > 0)) return first.normalized();
     const Vector_3 t = (first / l1 + (first / l1 - second / l2) * (l1 / (l1 + l2))).normalized();
     return t.dot(first) > least_cosine * l1 ? t : Vector_3(first / l1);
+  }
+
+  std::array<Vector_3, 2> ends(const Feature_curve& c, std::size_t i) const
+  {
+    const Vector_3 e = chord(c, i, i + 1);
+    const Cubic_handles h = feature_handles(e, c.tangents[i], c.tangents[i + 1]);
+    const Vector_3 bulge = 0.375 * (h.start + h.end);
+    const Index a = any_halfedge(c.vertices[i], c.vertices[i + 1]), b = mesh_.twin[a];
+    const bool is_straight = leaves_facet(a, bulge) || (b != no_index && leaves_facet(b, bulge));
+    if (is_straight) return {e.normalized(), e.normalized()};
+    return {c.tangents[i], c.tangents[i + 1]};
+  }
+
+  /// Whether a curve over the edge of `h` that is off it by `bulge` in the middle would leave the facet, as a parabola:
+  /// slivers that fill an arc turn over where their edge becomes that arc.
+  bool leaves_facet(Index h, const Vector_3& bulge) const
+  {
+    const Vector_3 e = points_[mesh_.target(h)] - points_[mesh_.source(h)];
+    const Vector_3 side = points_[mesh_.apex(h)] - points_[mesh_.source(h)];
+    const double length2 = e.squaredNorm(), along = side.dot(e);
+    const Vector_3 height = side - along / length2 * e; // at `along` of `length2`
+    return 4 * bulge.dot(height) * (std::max)(along, length2 - along) > height.squaredNorm() * length2;
   }
 
   Vector_3 chord(const Feature_curve& c, std::size_t i, std::size_t j) const

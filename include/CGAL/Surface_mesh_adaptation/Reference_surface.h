@@ -225,7 +225,7 @@ public:
     const Feature_curve& c = features.curves[l.cell];
     const std::size_t i = c.segment(l.u);
     const double t = c.parameter(i, l.u);
-    return ((1 - t) * c.tangents[i] + t * c.tangents[i + 1]).normalized();
+    return ((1 - t) * c.ends[i][0] + t * c.ends[i][1]).normalized();
   }
 
   /// Barycentric coordinates and vertices of the reference that `l` lies between: for what is interpolated linearly.
@@ -321,8 +321,8 @@ private:
   Vector_3 curve_point(const Feature_curve& c, double s) const
   {
     const std::size_t i = c.segment(s);
-    return Reconstruction::evaluate_curve(points[c.vertices[i]], points[c.vertices[i + 1]], c.tangents[i],
-                                          c.tangents[i + 1], c.parameter(i, s));
+    return Reconstruction::evaluate_curve(points[c.vertices[i]], points[c.vertices[i + 1]], c.ends[i][0],
+                                          c.ends[i][1], c.parameter(i, s));
   }
 
   /// The arc length of `a` on `c`; a corner is at the end that is nearer to its neighbour `b`.

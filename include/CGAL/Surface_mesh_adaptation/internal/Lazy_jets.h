@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/Features.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/feature_normals.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Facet_normals.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_jets.h>
 
 #include <atomic>
@@ -70,8 +71,18 @@ private:
   std::unique_ptr<std::atomic<std::uint8_t>[]> state_;
 };
 
-/// The jet of the sector that the corner `h` belongs to, with the normal of Max and without a shape operator where no
-/// fit is good enough. What is given counts at smooth vertices: others may have several normals.
+/// The normal of the `n` facets of a sector from that of `first` on that is off them least, in the mean over their area,
+/// so that patches leave them least; `otherwise` if they have none.
+inline Vector_3 mean_normal(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first, std::size_t n,
+                            const Vector_3& otherwise)
+{
+  Facet_normals facets;
+  for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h)) facets.add(face_normal(mesh, points, h));
+  return facets.empty() ? otherwise : facets.mean();
+}
+
+/// The jet of the sector that the corner `h` belongs to, with the mean normal of its facets and without a shape operator
+/// where no fit is good enough. What is given counts at smooth vertices: others may have several normals.
 inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Features& features,
                         const Corner_normals& normals, const Given_jets& given, Index h)
 {
@@ -82,6 +93,8 @@ inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& poin
     Jet_of_sector fit{jet.normal, jet.shape_operator};
     if (fit_jet(mesh, points, first, n, jet.normal, Jet_fit::exact, fit) != Fit_degree::none)
       jet = {fit.normal, fit.shape_operator, true};
+    else
+      jet.normal = mean_normal(mesh, points, first, n, jet.normal);
     jet.normal = normal_on_features(mesh, features, first, n, jet.normal);
   });
   if (features.vertex_class[v] != Vertex_class::smooth) return jet;

@@ -41,27 +41,40 @@ public:
     for (std::size_t i = begin; i < end; ++i) add_fan(corners_[i]);
   }
 
-private:
-  static constexpr std::size_t hub_degree = 32;
-  static constexpr int longest_walk = 6; // faces each way: the whole fan of usual vertices, what is near of a hub's
+  /// Calls `f(h)` for a halfedge that leaves the neighbour `i` in each face around it, from the one it was found in
+  /// both ways to the next feature.
+  template <class F>
+  void for_each_face_around(std::size_t i, const F& f) const { for_each_in_fan(corners_[i], f); }
 
-  /// Adds the vertices of the faces around the source of `h`, from the face of `h` both ways to the next feature.
-  void add_fan(Index h)
+private:
+  template <class F>
+  void for_each_in_fan(Index h, const F& f) const
   {
-    add(Mesh_view::next(h));
-    add(Mesh_view::previous(h));
+    f(h);
     Index g = h;
     for (int i = 0; i < longest_walk && can_cross(Mesh_view::previous(g)); ++i) {
       g = mesh_.rotated_ccw(g);
       if (g == h) return;
-      add(Mesh_view::previous(g));
+      f(g);
     }
     g = h;
     for (int i = 0; i < longest_walk && can_cross(g); ++i) {
       g = mesh_.rotated_cw(g);
       if (g == h) return;
-      add(Mesh_view::next(g));
+      f(g);
     }
+  }
+
+  static constexpr std::size_t hub_degree = 32;
+  static constexpr int longest_walk = 6; // faces each way: the whole fan of usual vertices, what is near of a hub's
+
+  /// Adds the vertices of the faces around the source of `h`.
+  void add_fan(Index h)
+  {
+    for_each_in_fan(h, [&](Index g) {
+      add(Mesh_view::next(g));
+      add(Mesh_view::previous(g));
+    });
   }
 
   bool can_cross(Index h) const { return !mesh_.is_feature(h) && !mesh_.is_border(h); }
