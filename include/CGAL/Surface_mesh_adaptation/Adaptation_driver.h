@@ -30,8 +30,8 @@ class Adaptation_driver
 public:
   Adaptation_driver(const Execution& execution, Surface& surface, Visitor& visitor)
     : execution_(execution), surface_(surface), visitor_(visitor)
-    , refinement_(execution, surface, spaced<Refinement_thresholds>())
-    , simplification_(execution, surface, spaced<Simplification_thresholds>()), swapping_(execution, surface, {})
+    , refinement_(execution, surface, weighed<Refinement_thresholds>())
+    , simplification_(execution, surface, weighed<Simplification_thresholds>()), swapping_(execution, surface, {})
     , relocation_(execution, surface, {})
   {}
 
@@ -52,12 +52,13 @@ public:
   }
 
 private:
-  /// The default thresholds, with curves spaced by the mean length of their edges: moves will equalise these.
+  /// The default thresholds, but a length may miss its range if that is better for the edges around: moves will
+  /// equalise these.
   template <class Thresholds>
-  static Thresholds spaced()
+  static Thresholds weighed()
   {
     Thresholds thresholds;
-    thresholds.space_curves = true;
+    thresholds.weigh_neighbors = true;
     return thresholds;
   }
 
