@@ -31,8 +31,8 @@ public:
   Adaptation_driver(const Execution& execution, Surface& surface, Visitor& visitor)
     : execution_(execution), surface_(surface), visitor_(visitor)
     , refinement_(execution, surface, weighed<Refinement_thresholds>())
-    , simplification_(execution, surface, weighed<Simplification_thresholds>()), swapping_(execution, surface, {})
-    , relocation_(execution, surface, {})
+    , simplification_(execution, surface, weighed<Simplification_thresholds>())
+    , swapping_(execution, surface, swapping_thresholds()), relocation_(execution, surface, {})
   {}
 
   /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, a few more in a scaled metric,
@@ -59,6 +59,15 @@ private:
   {
     Thresholds thresholds;
     thresholds.weigh_neighbors = true;
+    return thresholds;
+  }
+
+  static constexpr bool is_anisotropic = Surface_mesh_adaptation::is_anisotropic<typename Surface::Metric>;
+
+  static Swapping_thresholds swapping_thresholds()
+  {
+    Swapping_thresholds thresholds;
+    if (is_anisotropic) thresholds.max_length = max_length_in_between;
     return thresholds;
   }
 
@@ -153,10 +162,11 @@ private:
     // edges of needles are halved many times over: unless what this leaves behind is mended in between, the pieces of
     // one needle fill the surface with others.
     for (std::size_t i = 0; i < max_refine_sweeps; ++i) {
-      run_kernel("simplify", i == 0 ? max_simplify_sweeps : 1, simplify);
+      const std::size_t collapsed = run_kernel("simplify", i == 0 ? max_simplify_sweeps : 1, simplify);
       run_kernel("swap", 1, swap);
       split = run_kernel("refine", 1, refine);
-      if (split <= negligible(refine_share)) break;
+      // nor go on where what is split is what has been collapsed
+      if (split <= negligible(refine_share) || (is_anisotropic && i > 0 && split <= collapsed)) break;
     }
     run_kernel("simplify", max_simplify_sweeps, simplify);
     run_kernel("swap", max_swap_sweeps, swap);

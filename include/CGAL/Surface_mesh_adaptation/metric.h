@@ -70,8 +70,8 @@ public:
     ++n_;
   }
 
-  /// Whether the mean is smaller; never for no edges.
-  bool operator<(const Mean_misfit& other) const { return sum_ * other.n_ < other.sum_ * n_; }
+  /// Whether the mean is at most `factor` times that of `other`; always for no edges.
+  bool is_at_most(double factor, const Mean_misfit& other) const { return sum_ * other.n_ <= factor * other.sum_ * n_; }
 
 private:
   double sum_ = 0;

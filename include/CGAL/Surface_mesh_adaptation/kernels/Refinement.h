@@ -177,7 +177,7 @@ private:
     const Placed_vertex<Metric> m = surface_.middle(h);
     for (const Index v : {mesh_.source(h), mesh_.target(h), mesh_.apex(h), mesh_.apex(mesh_.twin[h])})
       after.add(edge_length(surface_.metrics[v], m.metric, m.point - surface_.points[v]));
-    return before < after;
+    return !after.is_at_most(1, before);
   }
 
   std::size_t count_marked() const

@@ -203,7 +203,7 @@ private:
       const double length = surface_.length(d, x);
       if (x == on_curve) return length <= max_curve_length;
       is_long = is_long || length > length_limit;
-      return !is_long || (may_be_long && length <= max_length_to_create);
+      return !is_long || (may_be_long && length <= max_length_in_between);
     };
     for (const typename Star::Face& f : star.faces) {
       if (f.x == d || f.y == d) continue;
@@ -230,7 +230,7 @@ private:
       before.add(surface_.length(s, x));
       if (x != d && x != c1 && x != c2) after.add(surface_.length(d, x));
     });
-    return before < after;
+    return !after.is_at_most(max_misfit, before);
   }
 
   bool keeps_tolerance(Index s, Index d) const
@@ -248,7 +248,7 @@ private:
   }
 
   static constexpr double min_turn = 0.3;        // cosine between a face and what replaces it
-  static constexpr double max_length_to_create = 2; // of edges that fit better than those they replace
+  static constexpr double max_misfit = 1.3;      // of what it was: where there are too many vertices moves make good for it
 
   const Execution& execution_;
   Surface& surface_;
