@@ -554,6 +554,42 @@ TEST(Adapt, follows_an_anisotropic_tensor)
   EXPECT_NEAR(double(after.points.size()), 1 / (0.866 * 0.009), 60);
 }
 
+/// Sizes of 0.1 along the circle of radius 1/2 and, across it, of h that grow by a fifth of the distance.
+Metric_tensor_3 circular_layer(double h, const Vector_3& p)
+{
+  const double across = h + (0.2 - 2 * h) * std::abs(std::hypot(p[0], p[1]) - 0.5);
+  const SMA::Matrix_3 axes = Eigen::AngleAxisd(std::atan2(p[1], p[0]), Vector_3::UnitZ()).toRotationMatrix();
+  return SMA::metric_tensor(Vector_3(across, 0.1, 0.1).cwiseAbs2().cwiseInverse(), axes);
+}
+
+/// The same at the line y = 1/2.
+Metric_tensor_3 straight_layer(double h, const Vector_3& p)
+{
+  const double across = h + (0.2 - 2 * h) * std::abs(p[1] - 0.5);
+  return SMA::metric_tensor(Vector_3(0.1, across, 0.1).cwiseAbs2().cwiseInverse(), SMA::Matrix_3::Identity());
+}
+
+TEST(Adapt, fits_thin_layers_and_thin_layers_that_turn)
+{
+  const auto adapted = [](Metric_tensor_3 (*layer)(double, const Vector_3&), double h) {
+    Mesh mesh = shapes::mesh<Mesh>(shapes::square(30, 0.3));
+    const SMA::Mesh_statistics s =
+      SMA::adapt_surface_mesh(mesh, SMA::Analytic_metric_field([&](const Vector_3& p) { return layer(h, p); })).final;
+    const Soup after = shapes::soup(mesh);
+    EXPECT_GT(checks::least_area(after, [](const Vector_3&) { return Vector_3(0, 0, 1); }), 0);
+    EXPECT_NEAR(checks::area(after), 1, 1e-12);
+    EXPECT_GT(s.min_quality, 0.5);
+    return s;
+  };
+  for (const double h : {0.001, 0.0001}) {
+    const SMA::Mesh_statistics straight = adapted(straight_layer, h), circular = adapted(circular_layer, h);
+    EXPECT_GE(straight.in_range, 0.985);
+    EXPECT_GE(straight.mean_quality, 0.96);
+    EXPECT_GE(circular.in_range, h == 0.001 ? 0.93 : 0.88); // an edge of 0.1 leaves the layer by 25 h
+    EXPECT_GE(circular.mean_quality, h == 0.001 ? 0.9 : 0.87);
+  }
+}
+
 // Tolerance
 
 /// The largest distance of points on one surface from the other, for some points on each face.

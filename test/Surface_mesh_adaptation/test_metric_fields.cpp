@@ -810,7 +810,7 @@ TEST(Metric_fields, give_the_same_bits_with_every_policy)
   auto solution = solution_field(mesh, wave, 500);
   curvature.anisotropic = solution.anisotropic = true;
   SMA::Intersection_metric_field field(curvature, solution);
-  field.vertices = 600;
+  field.vertices = 300;
   Soup expected;
   for_each_policy([&](const auto& execution, const std::string& name) {
     Mesh adapted = mesh;

@@ -30,9 +30,9 @@ class Adaptation_driver
 public:
   Adaptation_driver(const Execution& execution, Surface& surface, Visitor& visitor)
     : execution_(execution), surface_(surface), visitor_(visitor)
-    , refinement_(execution, surface, spaced<Refinement_thresholds>())
-    , simplification_(execution, surface, spaced<Simplification_thresholds>()), swapping_(execution, surface, {})
-    , relocation_(execution, surface, {})
+    , refinement_(execution, surface, weighed<Refinement_thresholds>())
+    , simplification_(execution, surface, weighed<Simplification_thresholds>())
+    , swapping_(execution, surface, swapping_thresholds()), relocation_(execution, surface, {})
   {}
 
   /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, a few more in a scaled metric,
@@ -52,12 +52,22 @@ public:
   }
 
 private:
-  /// The default thresholds, with curves spaced by the mean length of their edges: moves will equalise these.
+  /// The default thresholds, but a length may miss its range if that is better for the edges around: moves will
+  /// equalise these.
   template <class Thresholds>
-  static Thresholds spaced()
+  static Thresholds weighed()
   {
     Thresholds thresholds;
-    thresholds.space_curves = true;
+    thresholds.weigh_neighbors = true;
+    return thresholds;
+  }
+
+  static constexpr bool is_anisotropic = Surface_mesh_adaptation::is_anisotropic<typename Surface::Metric>;
+
+  static Swapping_thresholds swapping_thresholds()
+  {
+    Swapping_thresholds thresholds;
+    if (is_anisotropic) thresholds.max_length = max_length_in_between;
     return thresholds;
   }
 
@@ -152,10 +162,11 @@ private:
     // edges of needles are halved many times over: unless what this leaves behind is mended in between, the pieces of
     // one needle fill the surface with others.
     for (std::size_t i = 0; i < max_refine_sweeps; ++i) {
-      run_kernel("simplify", i == 0 ? max_simplify_sweeps : 1, simplify);
+      const std::size_t collapsed = run_kernel("simplify", i == 0 ? max_simplify_sweeps : 1, simplify);
       run_kernel("swap", 1, swap);
       split = run_kernel("refine", 1, refine);
-      if (split <= negligible(refine_share)) break;
+      // nor go on where what is split is what has been collapsed
+      if (split <= negligible(refine_share) || (is_anisotropic && i > 0 && split <= collapsed)) break;
     }
     run_kernel("simplify", max_simplify_sweeps, simplify);
     run_kernel("swap", max_swap_sweeps, swap);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -46,6 +47,36 @@ inline Anisotropic_metric scaled(const Anisotropic_metric& a, double factor) { r
 /// The interval of metric lengths that count as "as asked for".
 constexpr double min_unit_length = 0.70710678118654752;
 constexpr double max_unit_length = 1.41421356237309505;
+
+/// Whether lengths may change with the direction. Where that changes along an edge, as across a curved layer, its length
+/// is not proportional to it: the halves of an edge may have a quarter of its length each.
+template <class Metric>
+constexpr bool is_anisotropic = std::is_same<Metric, Anisotropic_metric>::value;
+
+/// By how much a length misses 1, as a ratio: the same for its inverse.
+inline double misfit(double length)
+{
+  const double l = std::log(length);
+  return l * l;
+}
+
+/// The mean misfit of some edges.
+class Mean_misfit
+{
+public:
+  void add(double length)
+  {
+    sum_ += misfit(length);
+    ++n_;
+  }
+
+  /// Whether the mean is at most `factor` times that of `other`; always for no edges.
+  bool is_at_most(double factor, const Mean_misfit& other) const { return sum_ * other.n_ <= factor * other.sum_ * n_; }
+
+private:
+  double sum_ = 0;
+  int n_ = 0;
+};
 
 /// Metric length of the edge `e` between vertices with metrics `a` and `b`: the trapezoidal rule.
 template <class Metric>

@@ -36,7 +36,8 @@ namespace Surface_mesh_adaptation {
 struct Refinement_thresholds
 {
   double max_length = max_unit_length;  ///< edges of this length or more are split
-  bool space_curves = false;            ///< decide on curves by the mean length of neighbouring edges
+  bool weigh_neighbors = false;         ///< decide by all edges that change: in an anisotropic metric by their mean
+                                        ///< misfit, on curves by the mean length of neighbouring ones
 };
 
 template <class Surface, class Execution>
@@ -63,6 +64,7 @@ public:
   {
     counts.candidates += mesh_.number_of_halfedges() / 2;
     mark();
+    if (is_anisotropic<Metric> && thresholds_.weigh_neighbors) unmark_fitting_edges();
     for (;;) {
       const std::size_t marked = count_marked();
       if (marked <= negligible) return 0;
@@ -105,6 +107,7 @@ public:
 
 private:
   static constexpr double min_turn = 0.5;  // cosine between a face and its children
+  static constexpr double max_length_to_keep = 3; // of an edge that fits better than its parts: not worth a look beyond
   static constexpr double max_half = 0.8;  // of an edge: the middle of a bulging arc lies well within
   static constexpr double max_share_of_holes = 0.01; // that are filled in series
   static constexpr double expected_excess = 1.2;   // vertices beyond those of a mesh of equilateral unit triangles
@@ -143,8 +146,38 @@ private:
 
   bool is_too_long(Index h) const
   {
-    if (thresholds_.space_curves && mesh_.is_feature(h)) return is_split_on_curve(surface_, h);
+    if (thresholds_.weigh_neighbors && mesh_.is_feature(h)) return is_split_on_curve(surface_, h);
     return !surface_.is_shorter(mesh_.source(h), mesh_.target(h), thresholds_.max_length);
+  }
+
+  /// Takes back the marks of edges that are too long but fit the metric better than what would replace them.
+  void unmark_fitting_edges()
+  {
+    fill(execution_, bad_, mesh_.number_of_faces(), std::uint8_t(0));
+    for_each_face([&](Index f) {
+      for (Index i = 0; i < 3; ++i)
+        if ((codes_[f] >> i & 1) != 0 && mesh_.is_edge_owner(3 * f + i) && is_better_than_its_parts(3 * f + i))
+          bad_[f] = std::uint8_t(bad_[f] | 1u << i);
+    }, heavy_chunk_length);
+    for_each_face([&](Index f) {
+      for (Index i = 0; i < 3; ++i) {
+        const Index h = 3 * f + i, owner = mesh_.is_edge_owner(h) ? h : mesh_.twin[h];
+        if ((bad_[owner / 3] >> owner % 3 & 1) != 0) codes_[f] = std::uint8_t(codes_[f] & ~(1u << i));
+      }
+    });
+  }
+
+  /// Whether the four edges that splitting that of `h` makes fit the metric less than it does.
+  bool is_better_than_its_parts(Index h) const
+  {
+    const double length = surface_.length(h);
+    if (mesh_.is_feature(h) || length > max_length_to_keep) return false;
+    Mean_misfit before, after;
+    before.add(length);
+    const Placed_vertex<Metric> m = surface_.middle(h);
+    for (const Index v : {mesh_.source(h), mesh_.target(h), mesh_.apex(h), mesh_.apex(mesh_.twin[h])})
+      after.add(edge_length(surface_.metrics[v], m.metric, m.point - surface_.points[v]));
+    return !after.is_at_most(1, before);
   }
 
   std::size_t count_marked() const

@@ -242,11 +242,24 @@ private:
     });
   }
 
-  /// Whether `moved` makes good faces all around, or else better ones than before.
+  static double total_quality(const Star& star, const Placed_vertex<Metric>& v)
+  {
+    double total = 0;
+    star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
+      const Vector_3 ea = a.point - v.point, eb = b.point - v.point;
+      total += internal::squared_shape(v.metric, a.metric, b.metric, ea, eb, ea.cross(eb)).quality();
+    });
+    return total;
+  }
+
+  /// Whether `moved` makes good faces all around, or else better ones than before. Diffusion settles where the faces are
+  /// good if their metric is nearly the same, or the same but for its scale; where its directions turn, it would leave
+  /// good faces for others, so that these must be better together.
   template <class StandsStill>
   bool is_acceptable(Index v, const Star& star, const Placed_vertex<Metric>& moved,
                      Attempt<StandsStill>& attempt) const
   {
+    if (is_anisotropic<Metric> && total_quality(star, moved) < total_quality(star, surface_.vertex(v))) return false;
     if (is_good(star, moved)) return true;
     const Shape after = shape(star, moved);
     const Shape before = shape(star, surface_.vertex(v));

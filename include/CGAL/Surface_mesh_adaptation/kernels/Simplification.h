@@ -32,7 +32,8 @@ struct Simplification_thresholds
   double min_length = min_unit_length;  ///< edges below are collapsed
   double max_length = max_unit_length;  ///< no collapse creates an edge above, unless it removes a longer one
   double min_quality = 0.2;             ///< nor a face below, unless there was a worse one
-  bool space_curves = false;            ///< decide on curves by the mean length of neighbouring edges
+  bool weigh_neighbors = false;         ///< decide by all edges that change: in an anisotropic metric by their mean
+                                        ///< misfit, on curves by the mean length of neighbouring ones
 };
 
 template <class Surface, class Execution>
@@ -125,7 +126,7 @@ private:
   template <class IsSeen>
   double max_length_to_collapse(Index s, const IsSeen& is_seen) const
   {
-    if (!thresholds_.space_curves || surface_.vertex_class(s) != Vertex_class::curve) return thresholds_.min_length;
+    if (!thresholds_.weigh_neighbors || surface_.vertex_class(s) != Vertex_class::curve) return thresholds_.min_length;
     return is_collapsed_on_curve(surface_, s, is_seen) ? max_curve_length : min_curve_length;
   }
 
@@ -166,23 +167,42 @@ private:
 
     const double quality_limit = (std::min)(thresholds_.min_quality, star.quality);
     const double alignment_limit = (std::min)(min_alignment, star.alignment);
-    const Index on_curve = thresholds_.space_curves ? next_on_curve(surface_, s, d) : no_index;
+    const Index on_curve = thresholds_.weigh_neighbors ? next_on_curve(surface_, s, d) : no_index;
     const double length_limit = (std::max)(thresholds_.max_length, star.length);
-    const auto limit_to = [&](Index x) { return x == on_curve ? max_curve_length : length_limit; };
-    bool is_flat = true;
+    const bool may_be_long = is_anisotropic<typename Surface::Metric> && thresholds_.weigh_neighbors;
+    bool is_flat = true, is_long = false;
+    const auto is_fit = [&](Index x) {
+      const double length = surface_.length(d, x);
+      if (x == on_curve) return length <= max_curve_length;
+      is_long = is_long || length > length_limit;
+      return !is_long || (may_be_long && length <= max_length_in_between);
+    };
     for (const typename Star::Face& f : star.faces) {
       if (f.x == d || f.y == d) continue;
       const double new_quality = surface_.quality(d, f.x, f.y);
       const Vector_3 n = surface_.normal(d, f.x, f.y);
       is_flat = is_flat && surface_.is_flat(n, d, f.x, f.y);
-      if (!(new_quality > quality_limit && new_quality > 0 && surface_.length(d, f.x) <= limit_to(f.x) &&
-            surface_.length(d, f.y) <= limit_to(f.y) && surface_.alignment(n, d, f.x, f.y) >= alignment_limit &&
-            n.dot(f.normal) >= min_turn_of_collapse &&
+      if (!(new_quality > quality_limit && new_quality > 0 && is_fit(f.x) && is_fit(f.y) &&
+            surface_.alignment(n, d, f.x, f.y) >= alignment_limit && n.dot(f.normal) >= min_turn_of_collapse &&
             (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit)))
         return false;
     }
-    return mesh_.is_collapsible(e) && (is_flat || is_unfolded(surface_, s, surface_.points[d], is_seen, is_put_off)) &&
+    return !(is_long && is_fit_worse(e)) && mesh_.is_collapsible(e) &&
+           (is_flat || is_unfolded(surface_, s, surface_.points[d], is_seen, is_put_off)) &&
            (!surface_.has_tolerance() || keeps_tolerance(s, d));
+  }
+
+  /// Whether the edges that a collapse creates fit the metric less than those that it removes.
+  bool is_fit_worse(const Mesh_view::Directed_edge& e) const
+  {
+    const Index s = mesh_.vanishing_vertex(e), d = mesh_.kept_vertex(e), t = mesh_.twin[e.h];
+    const Index c1 = mesh_.apex(e.h), c2 = t != no_index ? mesh_.apex(t) : d;
+    Mean_misfit before, after;
+    mesh_.for_each_neighbor(s, [&](Index x) {
+      before.add(surface_.length(s, x));
+      if (x != d && x != c1 && x != c2) after.add(surface_.length(d, x));
+    });
+    return !after.is_at_most(max_misfit, before);
   }
 
   bool keeps_tolerance(Index s, Index d) const
@@ -198,6 +218,8 @@ private:
     });
     return is_kept && surface_.is_near(faces, surface_.points[s]);
   }
+
+  static constexpr double max_misfit = 1.3; // of what it was: where there are too many vertices moves make good for it
 
   const Execution& execution_;
   Surface& surface_;

@@ -46,6 +46,10 @@ constexpr std::uint32_t max_border_rounds = 8;
 /// Swaps leave alone an edge between two faces of at least this quality: its other diagonal makes two bad ones.
 constexpr double max_improvable_quality = 0.9;
 
+/// Length of edges in an anisotropic metric up to which collapses and swaps may make them too long, if they gain enough
+/// by that: moves or splits mend it.
+constexpr double max_length_in_between = 2;
+
 template <class Surface>
 bool is_active(const Surface& surface, Index v, Activity kernel)
 {
