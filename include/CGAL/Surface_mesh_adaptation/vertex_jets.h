@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace CGAL {
@@ -144,13 +145,18 @@ inline void subtract_fourth_order(Cubic_fit& fit, const Sector_neighborhood& nei
 
 enum class Fit_degree : std::uint8_t { none, quadratic, cubic };
 
+/// What fits are for. Those for patches must agree with the facets, which patches must not leave. Sizes had better be
+/// too small than too large: where the surface bends sharply between coarse facets, fits say so, if not how.
+enum class Fit_purpose : std::uint8_t { patches, sizes };
+
 /// The fit over the neighbourhood of a sector with the normal `normal` of Max: of the highest degree that has samples
-/// enough, a normal within 30 degrees of `normal`, and agrees with the facets; if there is none, `jet` stays.
+/// enough, a normal within 30 degrees of `normal`, and serves its purpose; if there is none, `jet` stays.
 inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first, std::size_t n,
-                          const Vector_3& normal, Jet_fit samples, Jet_of_sector& jet)
+                          const Vector_3& normal, Jet_fit samples, Fit_purpose purpose, Jet_of_sector& jet)
 {
   Sector_neighborhood neighbors(mesh, first, n);
-  const Plausible_jets plausible(mesh, points, first, n, neighbors);
+  std::optional<Plausible_jets> plausible;
+  if (purpose == Fit_purpose::patches) plausible.emplace(mesh, points, first, n, neighbors);
   grow_for_cubic_fit(neighbors);
   const Tangent_frame frame(points[mesh.source(first)], normal);
   const double radius = mean_distance(neighbors, points, frame.origin);
@@ -166,7 +172,7 @@ inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& po
     if (!solved || !(f.gradient.squaredNorm() <= largest_squared_slope) || !f.hessian.allFinite()) return false;
     if (f.hessian.lpNorm<Eigen::Infinity>() <= rounding) f.hessian.setZero();
     const Jet_of_sector fitted = jet_of_graph(frame, f, radius);
-    if (!plausible.contains(fitted.normal, fitted.shape_operator)) return false;
+    if (plausible && !plausible->contains(fitted.normal, fitted.shape_operator)) return false;
     jet = fitted;
     return true;
   };
@@ -241,10 +247,9 @@ inline Metric_tensor_3 mean_shape_operator(const Mesh_view& mesh, const std::vec
 /// Estimates the normals and shape operators of all sectors from the points alone, each by a height function over the
 /// plane across the normal of Max (Cazals, Pouget 2005) through the vertex, fitted to the two rings around it that can
 /// be reached without crossing a feature: cubic, with normals of third and shape operators of second order in the
-/// length of the edges. A fit with too few or ill spread neighbours, with a normal more than 30 degrees off, or that
-/// does not agree with the facets around falls back to the quadratic one of the same samples, then to the normal of Max
-/// with the shape operators of the faces around (Rusinkiewicz 2004), which are also those of `Jet_fit::noisy`. Always
-/// finite.
+/// length of the edges. A fit with too few or ill spread neighbours, or with a normal more than 30 degrees off, falls
+/// back to the quadratic one of the same samples, then to the normal of Max with the shape operators of the faces
+/// around (Rusinkiewicz 2004), which are also those of `Jet_fit::noisy`. Always finite.
 ///
 /// \pre `mesh.curve` is set (Features.h), all points are finite
 /// \complexity O(n), about 2 microseconds a vertex
@@ -266,7 +271,7 @@ Corner_jets estimate_jets(const Execution& execution, const Mesh_view& mesh, con
   };
   for_each_sector([&](Index id, Index first, std::size_t n) {
     internal::Jet_of_sector jet{jets.normals[id], Metric_tensor_3(0, 0, 0, 0, 0, 0)};
-    degree[id] = internal::fit_jet(mesh, points, first, n, jets.normals[id], samples, jet);
+    degree[id] = internal::fit_jet(mesh, points, first, n, jets.normals[id], samples, internal::Fit_purpose::sizes, jet);
     jets.normals[id] = jet.normal;
     jets.shape_operators[id] = jet.shape_operator;
   });

@@ -91,7 +91,7 @@ inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& poin
   for_each_sector(mesh, v, [&](Index first, std::size_t n) {
     if (normals.of_corner[first] != sector) return;
     Jet_of_sector fit{jet.normal, jet.shape_operator};
-    if (fit_jet(mesh, points, first, n, jet.normal, Jet_fit::exact, fit) != Fit_degree::none)
+    if (fit_jet(mesh, points, first, n, jet.normal, Jet_fit::exact, Fit_purpose::patches, fit) != Fit_degree::none)
       jet = {fit.normal, fit.shape_operator, true};
     else
       jet.normal = mean_normal(mesh, points, first, n, jet.normal);
