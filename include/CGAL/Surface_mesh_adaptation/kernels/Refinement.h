@@ -161,7 +161,7 @@ private:
     }, heavy_chunk_length);
     for_each_face([&](Index f) {
       for (Index i = 0; i < 3; ++i) {
-        const Index h = 3 * f + i, owner = mesh_.is_edge_owner(h) ? h : mesh_.twin[h];
+        const Index owner = mesh_.edge_owner(3 * f + i);
         if ((bad_[owner / 3] >> owner % 3 & 1) != 0) codes_[f] = std::uint8_t(codes_[f] & ~(1u << i));
       }
     });
