@@ -9,6 +9,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_EXECUTION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_EXECUTION_H
 
+#include <CGAL/Surface_mesh_adaptation/internal/task_shares.h>
 #include <CGAL/Surface_mesh_adaptation/internal/thread_sanitizer.h>
 
 #include <CGAL/tags.h>
@@ -107,17 +108,18 @@ public:
     std::exception_ptr failure; // no exception may leave an OpenMP region
     std::mutex failure_mutex;
     internal::Fork_join_annotation annotation;
-    const std::int64_t n = std::int64_t(number_of_tasks);
-    annotation.fork();
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
-    for (std::int64_t i = 0; i < n; ++i) {
+    internal::Task_shares shares(number_of_tasks, std::size_t(threads_));
+    const auto guarded = [&](std::size_t i) {
       try {
-        annotation.run([&] { task(std::size_t(i)); });
+        annotation.run([&] { task(i); });
       } catch (...) {
         const std::lock_guard<std::mutex> lock(failure_mutex);
         if (!failure) failure = std::current_exception();
       }
-    }
+    };
+    annotation.fork();
+#pragma omp parallel num_threads(threads_)
+    shares.work(std::size_t(omp_get_thread_num()), guarded);
     annotation.join();
     if (failure) std::rethrow_exception(failure);
   }
