@@ -31,7 +31,8 @@ using SMA::Matrix_3;
 using SMA::Metric_tensor_3;
 using SMA::Vector_3;
 using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
-using Reference = SMA::Reference_surface<SMA::Flat_reconstruction>;
+using Reference = SMA::Reference_surface<SMA::Gregory_reconstruction>;
+using Flat_reference = SMA::Reference_surface<SMA::Flat_reconstruction>;
 using Tensors = std::vector<Metric_tensor_3>;
 
 const SMA::Sequential_execution sequential;
@@ -142,6 +143,51 @@ TEST(Curvature_tensors, of_flat_sides_are_zero_wherever_they_are)
     for (Vector_3& p : soup.points) p = Vector_3(p[0] + 0.3 * p[1], p[1], p[2] + 0.1 * p[0]) + Vector_3(shift, shift, 0);
     for (const Metric_tensor_3& m : SMA::curvature_tensors(sequential, reference(soup))) EXPECT_EQ(norm(m), 0);
   }
+}
+
+TEST(Curvature_tensors, of_facets_are_what_they_bend)
+{
+  const Soup soup = shapes::open_cylinder(24, 8, 2); // of radius 1
+  const Flat_reference facets(sequential, shapes::view(soup), soup.points, SMA::Feature_parameters());
+  const Reference smooth = reference(soup);
+  const Tensors of_facets = SMA::curvature_tensors(sequential, facets), of_surface = SMA::curvature_tensors(sequential, smooth);
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    if (smooth.features.vertex_class[v] != SMA::Vertex_class::smooth) continue;
+    const Vector_3 around = Vector_3::UnitZ().cross(soup.points[v]);
+    EXPECT_NEAR(of_surface[v].dot(around, around), 1, 0.05);
+    EXPECT_NEAR(of_facets[v].dot(around, around), 1.5 / std::cos(pi / 24), 0.01); // strips: all bends are parallel
+    EXPECT_LT(of_facets[v].dot(Vector_3::UnitZ(), Vector_3::UnitZ()), 0.01);
+  }
+}
+
+/// Two planes at a right angle with a narrow chamfer in between: two bends of 45 degrees less a little, along y.
+Soup chamfered_edge(double width)
+{
+  const double turn = pi / 4 - 0.02;
+  const Vector_3 along(std::cos(turn), 0, -std::sin(turn)), down(std::cos(2 * turn), 0, -std::sin(2 * turn));
+  return shapes::grid(5, 6, false, false, 0, [=](double u, double v) -> Vector_3 {
+    const double x = 5 * u - 2;
+    const Vector_3 y(0, v, 0);
+    if (x < 0.5) return y + Vector_3(x / 2, 0, 0);
+    return y + width * along + (x - 1) / 2 * down;
+  });
+}
+
+TEST(Curvature_tensors, see_bends_that_fits_smooth)
+{
+  const double width = 0.04;
+  const Soup soup = chamfered_edge(width);
+  const Reference r = reference(soup);
+  const Tensors tensors = SMA::curvature_tensors(sequential, r);
+  const double bend = 3 * std::tan((pi / 4 - 0.02) / 2) / std::sqrt(width * 0.5);
+  std::size_t bent = 0;
+  for (std::size_t v = 0; v < soup.points.size(); ++v) {
+    if (r.features.vertex_class[v] != SMA::Vertex_class::smooth) continue;
+    if (v % 6 != 2 && v % 6 != 3) continue;
+    EXPECT_GT(SMA::eigen_decomposition(tensors[v]).values.maxCoeff(), 0.9 * bend);
+    ++bent;
+  }
+  EXPECT_EQ(bent, 2u * 5);
 }
 
 // Hessians

@@ -20,7 +20,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace CGAL {
@@ -41,7 +40,8 @@ struct Corner_jets
 {
   Buffer<Vector_3> normals;
   Buffer<Metric_tensor_3> shape_operators;
-  Buffer<Index> of_corner;  ///< index into both for each corner
+  Buffer<char> agrees;      ///< whether they agree with the facets around, see `internal::Plausible_jets`
+  Buffer<Index> of_corner;  ///< index into all three for each corner
 
   /// How many sectors were settled by which fit; the rest has the normal of Max and what the normals around say.
   std::size_t cubic_fits = 0, quadratic_fits = 0, fallbacks = 0;
@@ -109,6 +109,7 @@ struct Jet_of_sector
 {
   Vector_3 normal;
   Metric_tensor_3 shape_operator;
+  bool agrees = false; ///< with the facets around
 };
 
 /// The normal and shape operator at the origin of the graph over `frame` with the derivatives `f`, of which the unit of
@@ -155,8 +156,7 @@ inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& po
                           const Vector_3& normal, Jet_fit samples, Fit_purpose purpose, Jet_of_sector& jet)
 {
   Sector_neighborhood neighbors(mesh, first, n);
-  std::optional<Plausible_jets> plausible;
-  if (purpose == Fit_purpose::patches) plausible.emplace(mesh, points, first, n, neighbors);
+  const Plausible_jets plausible(mesh, points, first, n, neighbors);
   grow_for_cubic_fit(neighbors);
   const Tangent_frame frame(points[mesh.source(first)], normal);
   const double radius = mean_distance(neighbors, points, frame.origin);
@@ -171,8 +171,9 @@ inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& po
   const auto accept = [&](bool solved) {
     if (!solved || !(f.gradient.squaredNorm() <= largest_squared_slope) || !f.hessian.allFinite()) return false;
     if (f.hessian.lpNorm<Eigen::Infinity>() <= rounding) f.hessian.setZero();
-    const Jet_of_sector fitted = jet_of_graph(frame, f, radius);
-    if (plausible && !plausible->contains(fitted.normal, fitted.shape_operator)) return false;
+    Jet_of_sector fitted = jet_of_graph(frame, f, radius);
+    fitted.agrees = plausible.contains(fitted.normal, fitted.shape_operator);
+    if (purpose == Fit_purpose::patches && !fitted.agrees) return false;
     jet = fitted;
     return true;
   };
@@ -263,6 +264,7 @@ Corner_jets estimate_jets(const Execution& execution, const Mesh_view& mesh, con
   jets.normals = std::move(start.normals);
   jets.of_corner = std::move(start.of_corner);
   jets.shape_operators.resize(jets.normals.size());
+  jets.agrees.resize(jets.normals.size());
   Buffer<Fit_degree> degree(jets.normals.size());
   const auto for_each_sector = [&](const auto& f) {
     for_each_index(execution, mesh.number_of_vertices(), [&](std::size_t v) {
@@ -274,6 +276,7 @@ Corner_jets estimate_jets(const Execution& execution, const Mesh_view& mesh, con
     degree[id] = internal::fit_jet(mesh, points, first, n, jets.normals[id], samples, internal::Fit_purpose::sizes, jet);
     jets.normals[id] = jet.normal;
     jets.shape_operators[id] = jet.shape_operator;
+    jets.agrees[id] = jet.agrees;
   });
   for_each_sector([&](Index id, Index first, std::size_t n) {
     if (degree[id] == Fit_degree::none || samples == Jet_fit::noisy)
