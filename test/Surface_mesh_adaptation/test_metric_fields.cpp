@@ -155,7 +155,7 @@ TEST(Curvature_tensors, of_facets_are_what_they_bend)
     if (smooth.features.vertex_class[v] != SMA::Vertex_class::smooth) continue;
     const Vector_3 around = Vector_3::UnitZ().cross(soup.points[v]);
     EXPECT_NEAR(of_surface[v].dot(around, around), 1, 0.05);
-    EXPECT_NEAR(of_facets[v].dot(around, around), 1.5 / std::cos(pi / 24), 0.01); // strips: all bends are parallel
+    EXPECT_NEAR(of_facets[v].dot(around, around), 1.5 / std::cos(pi / 24), 0.03); // strips: all bends are parallel
     EXPECT_LT(of_facets[v].dot(Vector_3::UnitZ(), Vector_3::UnitZ()), 0.01);
   }
 }

@@ -42,21 +42,14 @@ Metric_tensor_3 curvature_of_curve(const Reference& reference, Index v)
   return Metric_tensor_3(Matrix_3(curvature * c.tangents[i] * c.tangents[i].transpose()));
 }
 
-/// How much the surface bends across an edge.
-struct Bend
-{
-  double curvature;
-  Vector_3 across; ///< unit vector
-};
-
-/// The bend at the edge from `a` to `b` between its faces with the apices `c` and `d`: the turn of the normals over the
-/// distance of the centroids, at the geometric mean of the heights, for what a narrow face bends beside a wide one it
-/// bends within its own height. That is a tenth of the edge at least: the normals of slivers say little. None, of
-/// curvature zero, if rounding explains it.
-inline Bend bend_of_edge(const Vector_3& a, const Vector_3& b, const Vector_3& c, const Vector_3& d)
+/// Curvature of the bend at the edge from `a` to `b` between its faces with the apices `c` and `d`, as a tensor across it:
+/// the turn of the normals over the distance of the centroids, at the geometric mean of the heights, for what a narrow
+/// face bends beside a wide one it bends within its own height. That is a tenth of the edge at least: the normals of
+/// slivers say little. Zero if rounding explains it.
+inline Metric_tensor_3 curvature_of_bend(const Vector_3& a, const Vector_3& b, const Vector_3& c, const Vector_3& d)
 {
   constexpr double least_height = 0.1;
-  const Bend none{0, Vector_3::Zero()};
+  const Metric_tensor_3 none(0, 0, 0, 0, 0, 0);
   const Vector_3 edge = b - a, left = edge.cross(c - a), right = (d - a).cross(edge);
   const double length = edge.norm(), l = left.norm(), r = right.norm();
   if (!(l > 0 && r > 0)) return none;
@@ -65,28 +58,8 @@ inline Bend bend_of_edge(const Vector_3& a, const Vector_3& b, const Vector_3& c
   const auto height = [&](double twice_area) { return (std::max)(twice_area / length, least_height * length); };
   const double mean_height = std::sqrt(height(l) * height(r)), rounding = fit_rounding * (1 + a.norm() / mean_height);
   if (!(half_turn > rounding) || !std::isfinite(half_turn)) return none;
-  return {3 * half_turn / mean_height, edge.cross(m + n).normalized()};
-}
-
-/// `tensor`, raised across the edges around `v` that bend more than it says there, the largest bends first. Not by
-/// intersection: that of tensors that are long in nearly the same direction is shorter than either.
-template <class HasBend>
-Metric_tensor_3 raised_to_bends(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index v,
-                                const HasBend& has_bend, Metric_tensor_3 tensor, double max_anisotropy)
-{
-  Ring<Bend> bends;
-  mesh.for_each_outgoing(v, [&](Index h) {
-    if (mesh.is_feature(h) || mesh.is_border(h) || !has_bend(h)) return;
-    bends.push_back(bend_of_edge(points[v], points[mesh.target(h)], points[mesh.apex(h)],
-                                 points[mesh.apex(mesh.twin[h])]));
-  });
-  if (bends.empty()) return tensor;
-  std::sort(bends.begin(), bends.end(), [](const Bend& x, const Bend& y) { return x.curvature > y.curvature; });
-  for (const Bend& bend : bends) {
-    const double missing = bend.curvature - tensor.dot(bend.across, bend.across);
-    if (missing > 0) tensor += Metric_tensor_3(Matrix_3(missing * bend.across * bend.across.transpose()));
-  }
-  return with_bounded_anisotropy(tensor, max_anisotropy);
+  const Vector_3 across = edge.cross(m + n).normalized();
+  return Metric_tensor_3(Matrix_3(3 * half_turn / mean_height * across * across.transpose()));
 }
 
 /// Whether the faces of the input themselves are the surface.
@@ -109,18 +82,22 @@ std::vector<Metric_tensor_3> curvature_tensors(const Execution& execution, const
   const Mesh_view& mesh = reference.mesh;
   const std::vector<Vector_3>& points = reference.points;
   const Corner_jets jets = estimate_jets(execution, mesh, points, samples);
-  std::vector<Metric_tensor_3> tensors = internal::intersect_sectors(execution, mesh, jets.of_corner, [&](Index sector) {
+  const auto has_bend = [&](Index h) {
+    if (samples == Jet_fit::noisy || mesh.is_feature(h) || mesh.is_border(h)) return false;
+    return internal::is_flat<Reference> || !jets.agrees[jets.of_corner[h]];
+  };
+  return internal::intersect_sectors(execution, mesh, jets.of_corner, [&](Index sector) {
     return with_bounded_anisotropy(jets.shape_operators[sector], max_anisotropy);
   }, [&](Index v, const auto& append) {
     if (reference.features.vertex_class[v] == Vertex_class::curve)
       append(with_bounded_anisotropy(internal::curvature_of_curve(reference, v), max_anisotropy));
+    mesh.for_each_outgoing(v, [&](Index h) {
+      if (!has_bend(h)) return;
+      const Metric_tensor_3 bend = internal::curvature_of_bend(points[v], points[mesh.target(h)], points[mesh.apex(h)],
+                                                               points[mesh.apex(mesh.twin[h])]);
+      append(with_bounded_anisotropy(bend, max_anisotropy));
+    });
   });
-  if (samples == Jet_fit::noisy) return tensors;
-  const auto has_bend = [&](Index h) { return internal::is_flat<Reference> || !jets.agrees[jets.of_corner[h]]; };
-  for_each_index(execution, tensors.size(), [&](std::size_t v) {
-    tensors[v] = internal::raised_to_bends(mesh, points, Index(v), has_bend, tensors[v], max_anisotropy);
-  });
-  return tensors;
 }
 
 } // namespace Surface_mesh_adaptation
