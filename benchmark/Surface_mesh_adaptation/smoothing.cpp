@@ -103,9 +103,10 @@ double diagonal(const Soup& soup)
   return (high - low).norm();
 }
 
-/// Relocation to the sizes that the mesh has, at most a tenth of the diagonal. Sharp edges are kept, unless the surface
-/// is known to have none: the other methods keep none, and folded faces look like some.
-Soup relocated(const Soup& soup, bool keeps_features)
+/// Relocation to the sizes that the mesh has, at most a tenth of the diagonal; no move leaves a face more than `theta`
+/// degrees off the normals at its corners, or farther than it was. Sharp edges are kept, unless the surface is known to
+/// have none: the other methods keep none, and folded faces look like some.
+Soup relocated(const Soup& soup, bool keeps_features, double theta = 60)
 {
   const Neighbors neighbors = neighbors_of(soup);
   const double hmax = 0.1 * diagonal(soup);
@@ -118,8 +119,10 @@ Soup relocated(const Soup& soup, bool keeps_features)
   Mesh mesh = shapes::mesh<Mesh>(soup);
   const auto map = mesh.add_property_map<Mesh::Vertex_index, double>("v:size").first;
   for (const auto v : mesh.vertices()) map[v] = sizes[v];
-  SMA::relocate<CGAL::Sequential_tag>(
-    mesh, map, SMA::parameters::number_of_iterations(unsigned(iterations)).detect_features(keeps_features));
+  SMA::relocate<CGAL::Sequential_tag>(mesh, map,
+                                      SMA::parameters::number_of_iterations(unsigned(iterations))
+                                        .detect_features(keeps_features)
+                                        .maximum_normal_deviation(theta));
   return shapes::soup(mesh);
 }
 
@@ -190,7 +193,8 @@ std::vector<Method> methods()
           {"HC Laplacian", [](const Soup& s) { return hc_laplacian(s, 1); }},
           {"HC, MeshLab's sign", [](const Soup& s) { return hc_laplacian(s, -1); }},
           {"relocation", [](const Soup& s) { return relocated(s, true); }},
-          {"relocation, no features", [](const Soup& s) { return relocated(s, false); }}};
+          {"relocation, no features", [](const Soup& s) { return relocated(s, false); }},
+          {"the same within 7 degrees", [](const Soup& s) { return relocated(s, false, 7); }}};
 }
 
 void print_row(const std::string& shape, const char* method, const Soup& before, const Soup& after)

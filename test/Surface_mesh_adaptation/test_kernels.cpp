@@ -339,6 +339,37 @@ TEST(Relocate, raises_the_mean_and_the_least_quality)
   }
 }
 
+/// The largest angle between a face and the normals of the torus at its corners, in degrees.
+double largest_deviation(const Soup& soup)
+{
+  double least = 1;
+  for (const shapes::Triangle& t : soup.triangles) {
+    const Vector_3 &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
+    const Vector_3 n = (b - a).cross(c - a).normalized();
+    for (const Vector_3& p : {a, b, c}) least = (std::min)(least, n.dot(shapes::torus_normal(p)));
+  }
+  return std::acos(least) * 180 / shapes::pi;
+}
+
+TEST(Relocate, keeps_the_normals_of_faces_within_a_limit)
+{
+  const Soup before = shapes::torus(60, 30, 0.15);
+  const auto relocated = [&](const auto& np) {
+    Mesh mesh = shapes::mesh<Mesh>(before);
+    EXPECT_GT(SMA::relocate(mesh, SMA::Uniform_metric_field(1.5 * before.mean_edge_length()), np), 0u);
+    return shapes::soup(mesh);
+  };
+  const Soup free = relocated(params::number_of_iterations(10)), limited = relocated(params::maximum_normal_deviation(8));
+  const double rounding = 0.5; // the kernel knows the normals as they were estimated
+  EXPECT_GT(largest_deviation(free), largest_deviation(limited) + 1);
+  EXPECT_LT(largest_deviation(limited), (std::max)(8.0, largest_deviation(before)) + rounding);
+  EXPECT_GT(checks::mean_quality(limited), checks::mean_quality(before));
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  for (const double wrong : {0.0, -1.0, 181.0})
+    EXPECT_THROW(SMA::relocate(mesh, SMA::Uniform_metric_field(1), params::maximum_normal_deviation(wrong)),
+                 SMA::Invalid_parameter_error);
+}
+
 TEST(Relocate, spreads_the_vertices_of_a_boundary_evenly)
 {
   // all vertices of the boundary of a square but its corners start near one end of their side

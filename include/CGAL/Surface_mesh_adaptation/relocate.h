@@ -13,7 +13,16 @@ namespace Surface_mesh_adaptation {
 Moves vertices on the surface to improve the faces around them (paper, section 3).
 
 \param execution, mesh, field, np as for `adapt_surface_mesh`; `number_of_iterations` is the largest number of sweeps
-       (default: 10), and the visitor's `go_on` is asked after each of them
+       (default: 10), and the visitor's `go_on` is asked after each of them. Beside:
+
+\cgalNamedParamsBegin
+  \cgalParamNBegin{maximum_normal_deviation}
+    \cgalParamDescription{the largest angle between a face and the normals of the surface at its corners that a move may
+                          leave, unless it was larger: the paper's theta_max}
+    \cgalParamType{`double`, in degrees, above 0 and up to 180}
+    \cgalParamDefault{60}
+  \cgalParamNEnd
+\cgalNamedParamsEnd
 
 \returns the number of moves
 \throws as `adapt_surface_mesh`: the mesh is as it was then
@@ -23,8 +32,10 @@ template <class Execution, class TriangleMesh, class MetricField,
 auto relocate(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
               const NamedParameters& np = CGAL::parameters::default_values()) -> decltype(execution.concurrency(), std::size_t())
 {
-  return internal::run_kernel(execution, mesh, field, np, 10, [](const auto& policy, auto& surface) {
-    return Relocation(policy, surface, Relocation_thresholds());
+  Relocation_thresholds thresholds;
+  thresholds.least_alignment = internal::cosine_of_normal_deviation(np, thresholds.least_alignment);
+  return internal::run_kernel(execution, mesh, field, np, 10, [&](const auto& policy, auto& surface) {
+    return Relocation(policy, surface, thresholds);
   }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });
 }
 

@@ -6,10 +6,7 @@
 #include <CGAL/Surface_mesh_adaptation/internal/run_kernel.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Approximation.h>
 
-#include <CGAL/number_type_config.h>
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace CGAL {
@@ -26,12 +23,9 @@ template <class NamedParameters>
 Deviation_limits deviation_limits(const NamedParameters& np)
 {
   Deviation_limits limits;
-  const double degrees = choose(np, internal_np::maximum_normal_deviation, 180.0);
+  limits.min_cosine = cosine_of_normal_deviation(np, limits.min_cosine);
   limits.distance = choose(np, internal_np::maximum_distance, limits.distance);
-  if (!(degrees > 0 && degrees <= 180))
-    throw Invalid_parameter_error("the normal deviation must lie between 0 and 180 degrees");
   if (!(limits.distance > 0)) throw Invalid_parameter_error("the distance must be positive");
-  limits.min_cosine = std::cos(degrees * CGAL_PI / 180);
   return limits;
 }
 

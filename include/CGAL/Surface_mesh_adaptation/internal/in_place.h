@@ -16,7 +16,12 @@
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
 #include <CGAL/Surface_mesh_adaptation/parameters.h>
 
+#include <CGAL/number_type_config.h>
+
+#include <CGAL/number_utils.h>
+
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -47,6 +52,20 @@ template <class NamedParameters, class Tag>
 constexpr bool has_parameter =
   !std::is_same_v<std::decay_t<decltype(CGAL::parameters::get_parameter(std::declval<NamedParameters>(), Tag()))>,
                   CGAL::internal_np::Param_not_found>;
+
+/// The cosine of the parameter `maximum_normal_deviation`, or `by_default`.
+/// \throws Invalid_parameter_error
+template <class NamedParameters>
+double cosine_of_normal_deviation(const NamedParameters& np, double by_default)
+{
+  if constexpr (has_parameter<NamedParameters, internal_np::maximum_normal_deviation_t>) {
+    const double degrees = CGAL::parameters::get_parameter(np, internal_np::maximum_normal_deviation);
+    if (!(degrees > 0 && degrees <= 180))
+      throw Invalid_parameter_error("the normal deviation must lie between 0 and 180 degrees");
+    return std::cos(degrees * CGAL_PI / 180);
+  }
+  return by_default;
+}
 
 template <class FaceGraph, class NamedParameters>
 auto point_map(FaceGraph& graph, const NamedParameters& np)

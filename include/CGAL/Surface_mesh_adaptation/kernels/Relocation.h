@@ -11,7 +11,7 @@
 // Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Where a face
 // is not flat, the test for folds also looks at the vertices behind the ring: if these may be moving, the vertex is put
 // off until they stand still.
-// Invariants: connectivity is not touched; no face is turned away from the surface; the worst face around a vertex
+// Invariants: connectivity is not touched; no face is turned farther from the surface than the limit or than it was; the worst face around a vertex
 // never falls below both what it was and `good_quality`, or `good_quality_on_curves` if the vertex lies on one.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
@@ -36,6 +36,7 @@ struct Relocation_thresholds
 {
   double good_quality = 0.8;   ///< moves that leave no face below are always accepted; worse faces are optimised
   double good_quality_on_curves = 0.65; ///< the same for vertices on curves: equal lengths along these count, too
+  double least_alignment = min_alignment; ///< cosine between a face and the normals at its corners, unless it was less
   double min_move = 0.03;      ///< metric length below which a move is not worth it
   double noticeable_move = 0.2; ///< the same in the first sweep over a mesh that is adapted already
 };
@@ -229,7 +230,8 @@ private:
       const Vector_3 normal = ea.cross(eb);
       if (!internal::squared_shape(v.metric, a.metric, b.metric, ea, eb, normal).is_at_least(thresholds_.good_quality))
         return false;
-      const double limit = flat_alignment * flat_alignment * normal.squaredNorm();
+      const double least = (std::max)(flat_alignment, thresholds_.least_alignment);
+      const double limit = least * least * normal.squaredNorm();
       const auto is_flat_at = [&](const Vector_3& m) {
         const double dot = normal.dot(m);
         return dot > 0 && dot * dot >= limit;
@@ -273,7 +275,7 @@ private:
   bool is_upright(Index v, const Shape& before, const Shape& after, const Placed_vertex<Metric>& moved,
                   Attempt<StandsStill>& attempt) const
   {
-    if (after.alignment < (std::min)(min_alignment, before.alignment)) return false;
+    if (after.alignment < (std::min)(thresholds_.least_alignment, before.alignment)) return false;
     return is_unfolded(surface_, v, moved.point, attempt.stands_still, attempt.is_put_off);
   }
 
@@ -391,7 +393,8 @@ private:
       [&](const Placed_vertex<Metric>& x, const Vector_2& d) { return moved(x, d); },
       [&](const Placed_vertex<Metric>& x) {
         const Shape s = shape(star, x);
-        const bool is_allowed = s.worst > 0 && s.alignment >= (std::min)(min_alignment, before.alignment) &&
+        const bool is_allowed = s.worst > 0 &&
+                                s.alignment >= (std::min)(thresholds_.least_alignment, before.alignment) &&
                                 !is_turned(star, start.point, x.point);
         return is_allowed ? 1 / s.worst : std::numeric_limits<double>::infinity();
       });
