@@ -763,6 +763,14 @@ TEST(Number_of_vertices, is_met_on_a_part_with_ridges)
         part, curvature_field(std::size_t(ratio * double(part.number_of_vertices())), anisotropic), "part with ridges");
 }
 
+TEST(Number_of_vertices, is_met_where_the_metric_jumps)
+{
+  const Mesh part = real_mesh<Mesh>("anchor_dense");
+  SMA::Curvature_metric_field field = curvature_field(part.number_of_vertices() / 10, true);
+  field.gradation = 1;
+  expect_number_of_vertices(part, field, "part with ridges, without gradation,");
+}
+
 TEST(Number_of_vertices, is_met_by_a_mesh_that_conforms_already)
 {
   for (const bool anisotropic : {false, true}) {
