@@ -146,9 +146,29 @@ TEST(Curvature_tensors, of_flat_sides_are_zero_wherever_they_are)
 
 // Hessians
 
-SMA::Buffer<Metric_tensor_3> hessians(const Reference& r, const SMA::Corner_jets& jets, const std::vector<double>& values)
+template <class Execution = SMA::Sequential_execution>
+Tensors hessians(const Reference& r, const SMA::Corner_jets& jets, const std::vector<double>& values,
+                 const Execution& execution = {})
 {
-  return SMA::estimate_hessians(sequential, r.mesh, r.points, jets, values);
+  Tensors tensors;
+  for (const SMA::Hessian_estimate& h : SMA::estimate_hessians(execution, r.mesh, r.points, jets, values))
+    tensors.push_back(h.tensor);
+  return tensors;
+}
+
+/// The mean of what is not explained of `values` on a mesh.
+double mean_unexplained(const Soup& soup, const std::vector<double>& values)
+{
+  const Reference r = reference(soup, false);
+  const SMA::Corner_jets jets = SMA::estimate_jets(sequential, r.mesh, r.points);
+  double sum = 0, n = 0;
+  for (const SMA::Hessian_estimate& h : SMA::estimate_hessians(sequential, r.mesh, r.points, jets, values)) {
+    EXPECT_GE(h.unexplained, 0);
+    EXPECT_LE(h.unexplained, 1);
+    sum += h.unexplained;
+    ++n;
+  }
+  return sum / n;
 }
 
 /// Root mean square error of the Hessian relative to its size, at inner or at boundary vertices.
@@ -243,6 +263,25 @@ TEST(Hessian, of_degenerate_neighbourhoods_is_finite)
     }
 }
 
+TEST(Hessian, says_how_far_it_explains_the_values)
+{
+  const Soup square = shapes::square(20, 0.3);
+  const auto quadratic = analytic::quadratic(Vector_3(1, -3, 0).asDiagonal(), Vector_3(5, 1, 0));
+  EXPECT_LT(mean_unexplained(square, analytic::samples(quadratic, square.points)), 1e-12);
+  double coarser = 1;
+  for (const int level : {2, 3, 4}) {
+    const Soup soup = analytic::graph().mesh(level);
+    const double unexplained = mean_unexplained(soup, analytic::samples(analytic::waves(), soup.points));
+    EXPECT_LT(unexplained, coarser / 4);
+    coarser = unexplained;
+  }
+  EXPECT_LT(coarser, 0.01);
+  Random random(9);
+  std::vector<double> noise;
+  for (std::size_t v = 0; v < square.points.size(); ++v) noise.push_back(random.real());
+  EXPECT_GT(mean_unexplained(square, noise), 0.3);
+}
+
 TEST(Hessian, names_the_first_value_that_is_not_finite)
 {
   const Soup soup = shapes::square(6);
@@ -267,7 +306,7 @@ TEST(Hessian, is_the_same_bits_with_every_policy)
   const std::vector<double> values = analytic::samples(analytic::waves(), soup.points);
   const auto expected = hessians(r, jets, values);
   for_each_policy([&](const auto& execution, const std::string& name) {
-    EXPECT_TRUE(SMA::estimate_hessians(execution, r.mesh, r.points, jets, values) == expected) << name;
+    EXPECT_TRUE(hessians(r, jets, values, execution) == expected) << name;
   });
 }
 
@@ -302,14 +341,15 @@ double interpolation_error(double p, double r)
 
 TEST(Interpolation_norm, knows_how_much_smaller_errors_on_saddles_are)
 {
-  const std::pair<double, double> above_and_below[] = {{0.10, 0.005}, {0.005, 0.005}, {0.005, 0.07},
-                                                       {0.025, 0.2}}; // samples miss the sides, where errors are largest
+  // the samples miss the sides, where the largest errors are
+  const std::pair<double, double> above_and_below[] = {{0.10, 0.005}, {0.005, 0.005}, {0.005, 0.07}, {0.025, 0.2}};
   const double exponents[] = {1, 2, 4, infinity};
   for (int i = 0; i < 4; ++i) {
     const SMA::Interpolation_norm norm(exponents[i]);
     const double on_bowl = interpolation_error(exponents[i], 1);
     EXPECT_EQ(norm.relative_error(1), 1);
-    EXPECT_NEAR(norm.relative_error(-1), interpolation_error(exponents[i], -1) / on_bowl, i < 3 ? 0.002 : 0.02) << exponents[i];
+    EXPECT_NEAR(norm.relative_error(-1), interpolation_error(exponents[i], -1) / on_bowl, i < 3 ? 0.002 : 0.02)
+      << exponents[i];
     for (double r = -1; r < 1; r += 0.125) {
       const double ratio = norm.relative_error(r) / (interpolation_error(exponents[i], r) / on_bowl);
       EXPECT_LT(ratio, 1 + above_and_below[i].first) << exponents[i] << ' ' << r;
@@ -341,7 +381,8 @@ TEST(Multiscale_tensor, of_an_isotropic_metric_counts_the_smaller_eigenvalue_for
 {
   for (const double r : {1.0, 0.5, 0.0, -0.4, -1.0}) {
     const SMA::Interpolation_norm norm(2);
-    const Metric_tensor_3 m = SMA::multiscale_tensor(SMA::metric_tensor(Vector_3(-3, 0, -3 * r), Matrix_3::Identity()), norm, 1);
+    const Metric_tensor_3 hessian = SMA::metric_tensor(Vector_3(-3, 0, -3 * r), Matrix_3::Identity());
+    const Metric_tensor_3 m = SMA::multiscale_tensor(hessian, norm, 1);
     EXPECT_LT(distance(m, std::pow(3 * norm.relative_error(r), 2 / 3.0) * Metric_tensor_3()), 1e-12);
   }
 }

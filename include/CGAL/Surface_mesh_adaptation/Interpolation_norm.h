@@ -19,8 +19,8 @@ namespace Surface_mesh_adaptation {
 /// On a triangle with edges of length 1, the function with the Hessian `diag(1, r)` is missed by half of
 /// `a (x + y + z) + b Re(w e^it)`, with `a = (1 + r) / 2`, `b = (1 - r) / 2`, the products `x, y, z` of two barycentric
 /// coordinates each, `w = x + e^(2 pi i / 3) y + e^(4 pi i / 3) z`, and twice the orientation as `t`: the second
-/// derivative along an edge is `a + b cos t`. On bowls, `r = 1`, the second term is zero, on saddles, `r = -1`, the first:
-/// the error is much smaller there.
+/// derivative along an edge is `a + b cos t`. On bowls, `r = 1`, the second term is zero, on saddles, `r = -1`, the
+/// first: the error is much smaller there.
 class Interpolation_norm
 {
 public:
@@ -57,8 +57,8 @@ private:
 };
 
 /// Turns the Hessian `H` of a field into the metric that minimises a norm of the interpolation error on it for a given
-/// number of vertices, up to scale: `det(c |H|)^(-1/(2p + 2)) c |H|` with the determinant in the tangent plane (Loseille,
-/// Alauzet 2011) and the relative error `c` of what is left of `H` on triangles that are equilateral in `|H|`.
+/// number of vertices, up to scale: `det(c |H|)^(-1/(2p + 2)) c |H|` with the determinant in the tangent plane
+/// (Loseille, Alauzet 2011) and the relative error `c` of what is left of `H` on triangles that are equilateral in `|H|`.
 ///
 /// The eigenvalues of `|H|` are the absolute values of those of `H`, with their ratio bounded as in
 /// `with_bounded_anisotropy`: the metric is isotropic if `max_anisotropy` is 1. As far as it follows both eigenvalues,
