@@ -51,7 +51,7 @@ int main(int argc, char* argv[])
   std::vector<double> height(points.size());
   for (std::size_t v = 0; v < points.size(); ++v) height[v] = points[v].z();
   const auto hessians = SMA::estimate_hessians(execution, view, points, jets, height);
-  std::cout << "at the first corner, the Hessian of z is\n" << hessians[jets.of_corner[0]].matrix() << '\n';
+  std::cout << "at the first corner, the Hessian of z is\n" << hessians[jets.of_corner[0]].tensor.matrix() << '\n';
 
   // patches, and a step from a vertex into a direction of its tangent plane, which takes a tensor along
   const auto patch = [&](SMA::Index f) {

@@ -192,9 +192,29 @@ TEST(Curvature_tensors, see_bends_that_fits_smooth)
 
 // Hessians
 
-SMA::Buffer<Metric_tensor_3> hessians(const Reference& r, const SMA::Corner_jets& jets, const std::vector<double>& values)
+template <class Execution = SMA::Sequential_execution>
+Tensors hessians(const Reference& r, const SMA::Corner_jets& jets, const std::vector<double>& values,
+                 const Execution& execution = {})
 {
-  return SMA::estimate_hessians(sequential, r.mesh, r.points, jets, values);
+  Tensors tensors;
+  for (const SMA::Hessian_estimate& h : SMA::estimate_hessians(execution, r.mesh, r.points, jets, values))
+    tensors.push_back(h.tensor);
+  return tensors;
+}
+
+/// The mean of what is not explained of `values` on a mesh.
+double mean_unexplained(const Soup& soup, const std::vector<double>& values)
+{
+  const Reference r = reference(soup, false);
+  const SMA::Corner_jets jets = SMA::estimate_jets(sequential, r.mesh, r.points);
+  double sum = 0, n = 0;
+  for (const SMA::Hessian_estimate& h : SMA::estimate_hessians(sequential, r.mesh, r.points, jets, values)) {
+    EXPECT_GE(h.unexplained, 0);
+    EXPECT_LE(h.unexplained, 1);
+    sum += h.unexplained;
+    ++n;
+  }
+  return sum / n;
 }
 
 /// Root mean square error of the Hessian relative to its size, at inner or at boundary vertices.
@@ -289,6 +309,25 @@ TEST(Hessian, of_degenerate_neighbourhoods_is_finite)
     }
 }
 
+TEST(Hessian, says_how_far_it_explains_the_values)
+{
+  const Soup square = shapes::square(20, 0.3);
+  const auto quadratic = analytic::quadratic(Vector_3(1, -3, 0).asDiagonal(), Vector_3(5, 1, 0));
+  EXPECT_LT(mean_unexplained(square, analytic::samples(quadratic, square.points)), 1e-12);
+  double coarser = 1;
+  for (const int level : {2, 3, 4}) {
+    const Soup soup = analytic::graph().mesh(level);
+    const double unexplained = mean_unexplained(soup, analytic::samples(analytic::waves(), soup.points));
+    EXPECT_LT(unexplained, coarser / 4);
+    coarser = unexplained;
+  }
+  EXPECT_LT(coarser, 0.01);
+  Random random(9);
+  std::vector<double> noise;
+  for (std::size_t v = 0; v < square.points.size(); ++v) noise.push_back(random.real());
+  EXPECT_GT(mean_unexplained(square, noise), 0.3);
+}
+
 TEST(Hessian, names_the_first_value_that_is_not_finite)
 {
   const Soup soup = shapes::square(6);
@@ -313,28 +352,99 @@ TEST(Hessian, is_the_same_bits_with_every_policy)
   const std::vector<double> values = analytic::samples(analytic::waves(), soup.points);
   const auto expected = hessians(r, jets, values);
   for_each_policy([&](const auto& execution, const std::string& name) {
-    EXPECT_TRUE(SMA::estimate_hessians(execution, r.mesh, r.points, jets, values) == expected) << name;
+    EXPECT_TRUE(hessians(r, jets, values, execution) == expected) << name;
   });
 }
 
-// Normalisation
+// Interpolation errors of quadratic functions
+
+/// The L^p norm of the error for the Hessian `diag(1, r)` on a triangle with edges of length 1, in the mean over its
+/// orientations: from the values of the function at points of the triangle and at its corners.
+double interpolation_error(double p, double r)
+{
+  const int directions = 24, n = 60;
+  double sum = 0, largest = 0;
+  for (int d = 0; d < directions; ++d) {
+    Vector_3 corners[3];
+    for (int i = 0; i < 3; ++i) {
+      const double angle = 2 * pi * (i / 3.0 + d / (6.0 * directions));
+      corners[i] = Vector_3(std::cos(angle), std::sin(angle), 0) / std::sqrt(3.0);
+    }
+    const auto u = [&](const Vector_3& x) { return (x[0] * x[0] + r * x[1] * x[1]) / 2; };
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) { // the centers of the n^2 triangles into which lines cut this one
+        const bool upper = i + j >= n;
+        const double a = (upper ? n - i - 1 / 3.0 : i + 1 / 3.0) / n, b = (upper ? n - j - 1 / 3.0 : j + 1 / 3.0) / n,
+                     c = 1 - a - b;
+        const double e = std::abs(a * u(corners[0]) + b * u(corners[1]) + c * u(corners[2]) -
+                                  u(a * corners[0] + b * corners[1] + c * corners[2]));
+        sum += std::pow(e, p);
+        largest = (std::max)(largest, e);
+      }
+  }
+  return std::isinf(p) ? largest : std::pow(sum / (directions * n * n), 1 / p);
+}
+
+TEST(Interpolation_norm, knows_how_much_smaller_errors_on_saddles_are)
+{
+  // the samples miss the sides, where the largest errors are
+  const std::pair<double, double> above_and_below[] = {{0.10, 0.005}, {0.005, 0.005}, {0.005, 0.07}, {0.025, 0.2}};
+  const double exponents[] = {1, 2, 4, infinity};
+  for (int i = 0; i < 4; ++i) {
+    const SMA::Interpolation_norm norm(exponents[i]);
+    const double on_bowl = interpolation_error(exponents[i], 1);
+    EXPECT_EQ(norm.relative_error(1), 1);
+    EXPECT_NEAR(norm.relative_error(-1), interpolation_error(exponents[i], -1) / on_bowl, i < 3 ? 0.002 : 0.02)
+      << exponents[i];
+    for (double r = -1; r < 1; r += 0.125) {
+      const double ratio = norm.relative_error(r) / (interpolation_error(exponents[i], r) / on_bowl);
+      EXPECT_LT(ratio, 1 + above_and_below[i].first) << exponents[i] << ' ' << r;
+      EXPECT_GT(ratio, 1 - above_and_below[i].second) << exponents[i] << ' ' << r;
+    }
+  }
+  EXPECT_NEAR(SMA::Interpolation_norm(2).relative_error(-1), std::sqrt(1 / 8.0), 1e-3); // in closed form
+  EXPECT_EQ(SMA::Interpolation_norm(infinity).relative_error(-1), 0.75);
+}
 
 TEST(Multiscale_tensor, has_the_determinant_of_the_optimal_density)
 {
   Random random(4);
-  for (const double p : {1.0, 2.0, 4.0}) {
-    const double a = random.real(0.1, 10), b = -random.real(0.1, 10);
-    const Matrix_3 axes = random_rotation(random);
-    const Metric_tensor_3 m = SMA::multiscale_tensor(SMA::metric_tensor(Vector_3(0, a, b), axes), p, 1e6);
-    const Vector_3 u = axes.col(1), v = axes.col(2);
-    EXPECT_NEAR(m.dot(u, v), 0, 1e-12);
-    EXPECT_NEAR(m.dot(u, u) / m.dot(v, v), a / std::abs(b), 1e-9); // directions and ratio are kept
-    EXPECT_NEAR(m.dot(u, u) * m.dot(v, v), std::pow(a * std::abs(b), p / (p + 1)), 1e-9);
-  }
-  const Metric_tensor_3 flat = SMA::multiscale_tensor(SMA::metric_tensor(Vector_3(0, 3, -2), Matrix_3::Identity()), infinity, 10);
-  EXPECT_LT(distance(flat, SMA::metric_tensor(Vector_3(0.03, 3, 2), Matrix_3::Identity())), 1e-12);
-  EXPECT_EQ(SMA::multiscale_tensor(zero, 2, 100), zero);
+  for (const double p : {1.0, 2.0, 4.0})
+    for (const double sign : {1.0, -1.0}) {
+      const double a = random.real(0.1, 10), b = sign * random.real(0.1, 10);
+      const Matrix_3 axes = random_rotation(random);
+      const SMA::Interpolation_norm norm(p);
+      const Metric_tensor_3 m = SMA::multiscale_tensor(SMA::metric_tensor(Vector_3(0, a, b), axes), norm, 1e4);
+      const Vector_3 u = axes.col(1), v = axes.col(2);
+      EXPECT_NEAR(m.dot(u, v), 0, 1e-12);
+      EXPECT_NEAR(m.dot(u, u) / m.dot(v, v), a / std::abs(b), 1e-9); // directions and ratio are kept
+      const double error = norm.relative_error(sign) * std::sqrt(std::abs(a * b)); // on faces of unit area
+      EXPECT_NEAR(std::sqrt(m.dot(u, u) * m.dot(v, v)), std::pow(error, p / (p + 1)), 1e-6);
+    }
 }
+
+TEST(Multiscale_tensor, of_an_isotropic_metric_counts_the_smaller_eigenvalue_for_what_it_costs)
+{
+  for (const double r : {1.0, 0.5, 0.0, -0.4, -1.0}) {
+    const SMA::Interpolation_norm norm(2);
+    const Metric_tensor_3 hessian = SMA::metric_tensor(Vector_3(-3, 0, -3 * r), Matrix_3::Identity());
+    const Metric_tensor_3 m = SMA::multiscale_tensor(hessian, norm, 1);
+    EXPECT_LT(distance(m, std::pow(3 * norm.relative_error(r), 2 / 3.0) * Metric_tensor_3()), 1e-12);
+  }
+}
+
+TEST(Multiscale_tensor, takes_the_absolute_hessian_for_the_largest_error)
+{
+  const SMA::Interpolation_norm norm(infinity);
+  const auto metric = [&](double b) {
+    return SMA::multiscale_tensor(SMA::metric_tensor(Vector_3(0, 3, b), Matrix_3::Identity()), norm, 10);
+  };
+  EXPECT_LT(distance(metric(2), SMA::metric_tensor(Vector_3(0.03, 3, 2), Matrix_3::Identity())), 1e-12);
+  EXPECT_LT(distance(metric(-2), 0.75 * SMA::metric_tensor(Vector_3(0.03, 3, 2), Matrix_3::Identity())), 1e-12);
+  EXPECT_EQ(SMA::multiscale_tensor(zero, norm, 100), zero);
+}
+
+// Normalisation
 
 /// A hexagonal patch of `rings` rings of equilateral triangles with edges of length 1, stretched by `stretch` along x.
 Soup hexagon(int rings, double stretch)
@@ -458,9 +568,10 @@ void expect_normalized(double max_anisotropy)
   const SMA::Corner_jets jets = SMA::estimate_jets(sequential, r.mesh, r.points);
   const auto h = hessians(r, jets, u);
   for (const double p : {1.0, 2.0, 4.0, infinity}) {
+    const SMA::Interpolation_norm norm(p);
     SMA::Scalable_metric metric{Tensors(soup.points.size()), SMA::Size_bounds(0.004, 0.2), 1.5};
     for (Index v = 0; v < soup.points.size(); ++v) // the square has corners, but all its sectors are flat
-      metric.tensors[v] = SMA::multiscale_tensor(h[jets.of_corner[r.mesh.outgoing[v]]], p, max_anisotropy);
+      metric.tensors[v] = SMA::multiscale_tensor(h[jets.of_corner[r.mesh.outgoing[v]]], norm, max_anisotropy);
     for (const double n : {400.0, 2000.0, 5000.0}) {
       const auto values = SMA::normalize_to_vertex_count<Value>(sequential, r.mesh, r.points, r.normals, metric, n);
       const auto c = complexity(sequential, r.mesh, r.points, r.normals, values);
@@ -737,6 +848,14 @@ TEST(Number_of_vertices, is_met_on_a_part_with_ridges)
     for (const bool anisotropic : {false, true})
       expect_number_of_vertices(
         part, curvature_field(std::size_t(ratio * double(part.number_of_vertices())), anisotropic), "part with ridges");
+}
+
+TEST(Number_of_vertices, is_met_where_the_metric_jumps)
+{
+  const Mesh part = real_mesh<Mesh>("anchor_dense");
+  SMA::Curvature_metric_field field = curvature_field(part.number_of_vertices() / 10, true);
+  field.gradation = 1;
+  expect_number_of_vertices(part, field, "part with ridges, without gradation,");
 }
 
 TEST(Number_of_vertices, is_met_by_a_mesh_that_conforms_already)

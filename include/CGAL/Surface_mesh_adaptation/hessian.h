@@ -20,32 +20,58 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+/// The second derivatives along the surface of a field at a vertex.
+struct Hessian_estimate
+{
+  Metric_tensor_3 tensor = Metric_tensor_3(0, 0, 0, 0, 0, 0); ///< zero along the normal
+  /// What the fit leaves of the squares of the values, over that and the squares of its quadratic part: 0 if the fit is
+  /// exact, of fourth order in the distance of the samples where they resolve the field, near 1 where they do not.
+  double unexplained = 0;
+};
+
 namespace internal {
+
+/// `Hessian_estimate::unexplained` of the fit with the derivatives `f` over the plane of `frame`.
+template <class Value>
+double unexplained_share(const Sector_neighborhood& neighbors, const std::vector<Vector_3>& points,
+                         const Tangent_frame& frame, double radius, const Derivatives_2& f, const Value& value)
+{
+  double all = 0, quadratic = 0;
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    const Vector_3 d = (points[neighbors[i]] - frame.origin) / radius;
+    const Eigen::Vector2d x(d.dot(frame.x), d.dot(frame.y));
+    const double weight = fit_weight(d.squaredNorm(), Jet_fit::exact), v = value(neighbors[i]),
+                 q = x.dot(f.hessian * x) / 2;
+    all += weight * v * v;
+    quadratic += weight * q * q;
+  }
+  const double rest = (std::max)(0.0, all - f.explained);
+  return rest > 0 ? rest / (rest + quadratic) : 0;
+}
 
 /// The Hessian at the source of `first`, in the sector of `n` faces with the unit normal `normal`; zero if the samples
 /// do not determine it.
-inline Metric_tensor_3 hessian_of_sector(const Mesh_view& mesh, const std::vector<Vector_3>& points,
-                                                          Index first, std::size_t n, const Vector_3& normal,
-                                                          const std::vector<double>& values)
+inline Hessian_estimate hessian_of_sector(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first,
+                                          std::size_t n, const Vector_3& normal, const std::vector<double>& values)
 {
-  const Metric_tensor_3 zero(0, 0, 0, 0, 0, 0);
   Sector_neighborhood neighbors(mesh, first, n);
   grow_for_cubic_fit(neighbors);
   const Index v = mesh.source(first);
   const Tangent_frame frame(points[v], normal);
   const double radius = mean_distance(neighbors, points, frame.origin);
-  if (!(radius > 0) || !std::isfinite(1 / radius)) return zero;
-  const Cubic_fit fit = fit_over_plane(neighbors, points, frame, radius, Jet_fit::exact,
-                                       [&](Index w) { return values[w] - values[v]; });
+  if (!(radius > 0) || !std::isfinite(1 / radius)) return {};
+  const auto value = [&](Index w) { return values[w] - values[v]; };
+  const Cubic_fit fit = fit_over_plane(neighbors, points, frame, radius, Jet_fit::exact, value);
   Derivatives_2 f;
-  if (!fit.solve_cubic(f) && !fit.solve_quadratic(f)) return zero;
+  if (!fit.solve_cubic(f) && !fit.solve_quadratic(f)) return {};
   // what the rounding of values and coordinates explains is none
   const double rounding = fit_rounding * (std::abs(values[v]) + f.gradient.lpNorm<Eigen::Infinity>() *
                                                                   (1 + frame.origin.lpNorm<Eigen::Infinity>() / radius));
-  if (!f.hessian.allFinite() || f.hessian.lpNorm<Eigen::Infinity>() <= rounding) return zero;
+  if (!f.hessian.allFinite() || f.hessian.lpNorm<Eigen::Infinity>() <= rounding) return {};
   Eigen::Matrix<double, 3, 2> axes;
   axes << frame.x, frame.y;
-  return Metric_tensor_3(Matrix_3(axes * (f.hessian / (radius * radius)) * axes.transpose()));
+  return {Metric_tensor_3(Matrix_3(axes * (f.hessian / (radius * radius)) * axes.transpose())),
+          unexplained_share(neighbors, points, frame, radius, f, value)};
 }
 
 } // namespace internal
@@ -61,15 +87,15 @@ inline Metric_tensor_3 hessian_of_sector(const Mesh_view& mesh, const std::vecto
 /// \throws Invalid_field_error for the first value that is not finite
 /// \complexity O(n), about 2 microseconds a vertex
 template <class Execution, class Normals>
-Buffer<Metric_tensor_3> estimate_hessians(const Execution& execution, const Mesh_view& mesh,
-                                          const std::vector<Vector_3>& points, const Normals& normals,
-                                          const std::vector<double>& values)
+Buffer<Hessian_estimate> estimate_hessians(const Execution& execution, const Mesh_view& mesh,
+                                           const std::vector<Vector_3>& points, const Normals& normals,
+                                           const std::vector<double>& values)
 {
   const std::size_t n = values.size();
   const std::size_t bad = reduce(execution, n, n, [&](std::size_t v) { return std::isfinite(values[v]) ? n : v; },
                                  [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
   if (bad < n) throw Invalid_field_error(bad);
-  Buffer<Metric_tensor_3> hessians;
+  Buffer<Hessian_estimate> hessians;
   hessians.resize(normals.normals.size());
   for_each_index(execution, mesh.number_of_vertices(), [&](std::size_t v) {
     internal::for_each_sector(mesh, Index(v), [&](Index first, std::size_t faces) {

@@ -5,6 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_METRIC_FIELDS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_METRIC_FIELDS_H
 
+#include <CGAL/Surface_mesh_adaptation/Interpolation_norm.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_background.h>
 #include <CGAL/Surface_mesh_adaptation/Size_bounds.h>
 #include <CGAL/Surface_mesh_adaptation/curvature.h>
@@ -211,20 +212,28 @@ void with_vertex_metric(const Execution& execution, const Curvature_metric_field
   else use_scaled<double>(execution, reference, metric, field.vertices, scale, use);
 }
 
+/// Fits to a field that the mesh does not resolve miss most of its waves: adaptation to them would take away the
+/// vertices that are needed to see more. Hence up to five times as much where values are not explained.
+inline Metric_tensor_3 resolving_hessian(const Hessian_estimate& hessian)
+{
+  return (1 + 4 * hessian.unexplained) * hessian.tensor;
+}
+
 template <class Execution, class VertexScalarMap, class Import, class Reference, class Use>
 void with_vertex_metric(const Execution& execution, const Solution_metric_field<VertexScalarMap>& field,
                         const Import& imported, const Reference& reference, const Use& use)
 {
   check_anisotropy(field.max_anisotropy);
   if (!(field.norm >= 1)) throw Invalid_parameter_error("the norm must be at least 1");
+  const Interpolation_norm norm(field.norm);
   std::vector<double> values(imported.vertices.size());
   for (std::size_t v = 0; v < values.size(); ++v) values[v] = CGAL::to_double(get(field.values, imported.vertices[v]));
   const Corner_jets jets = estimate_jets(execution, reference.mesh, reference.points);
-  const Buffer<Metric_tensor_3> hessians =
+  const Buffer<Hessian_estimate> hessians =
     estimate_hessians(execution, reference.mesh, reference.points, jets, values);
   const Scalable_metric metric{
     intersect_sectors(execution, reference.mesh, jets.of_corner, [&](Index sector) {
-      return multiscale_tensor(hessians[sector], field.norm, field.anisotropic ? field.max_anisotropy : 1);
+      return multiscale_tensor(resolving_hessian(hessians[sector]), norm, field.anisotropic ? field.max_anisotropy : 1);
     }, [](Index, const auto&) {}),
     bounds_of_scaled_metric(field.hmin, field.hmax, diagonal_of_bounding_box(reference.points)), field.gradation};
   if (field.anisotropic) use_scaled<Metric_tensor_3>(execution, reference, metric, field.vertices, 1, use);

@@ -24,19 +24,6 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// Turns the absolute Hessian `|H|` of a surface or a field into the metric that minimises the L^p norm of the
-/// interpolation error on it for a given number of vertices, up to scale: `det(|H|)^(-1/(2p + 2)) |H|` with the
-/// determinant in the tangent plane (Loseille, Alauzet 2011); `p` may be infinite. The eigenvalues of `hessian` are
-/// taken in absolute value and their ratio is bounded as in `with_bounded_anisotropy`: the metric is isotropic if
-/// `max_anisotropy` is 1. Zero stays zero. \pre `hessian` has an eigenvalue 0 along the normal; `p >= 1`
-inline Metric_tensor_3 multiscale_tensor(const Metric_tensor_3& hessian, double p, double max_anisotropy)
-{
-  const Metric_tensor_3 m = with_bounded_anisotropy(hessian, max_anisotropy);
-  const Vector_3 values = eigen_decomposition(m).values;
-  if (!(values[1] > 0)) return Metric_tensor_3(0, 0, 0, 0, 0, 0);
-  return std::pow(values[1] * values[2], -1 / (2 * p + 2)) * m;
-}
-
 /// What a metric measures on a surface, over the area and along the boundary.
 struct Metric_complexity
 {

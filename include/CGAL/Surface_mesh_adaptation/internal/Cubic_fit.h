@@ -20,6 +20,7 @@ struct Derivatives_2
 {
   Eigen::Vector2d gradient;
   Eigen::Matrix2d hessian;
+  double explained; ///< sum of the squares of a fit at its samples, with their weights
 };
 
 /// Gathers samples, then solves the normal equations. Their monomials are ordered by degree, so those of the quadratic
@@ -71,6 +72,7 @@ public:
         factors_.solve(inverse_.cwiseProduct(fit_.right_hand_side_.template head<n>())));
       result.gradient << c[0], c[1];
       result.hessian << c[2], c[3], c[3], c[4];
+      result.explained = c.dot(fit_.right_hand_side_.template head<n>());
       return true;
     }
 
