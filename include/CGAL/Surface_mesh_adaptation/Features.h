@@ -10,6 +10,8 @@
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/internal/cubic_curve.h>
 
+#include <CGAL/number_type_config.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,7 +96,7 @@ class Feature_detection
 public:
   Feature_detection(Mesh_view& mesh, const std::vector<Vector_3>& points, const Feature_parameters& parameters)
     : mesh_(mesh), points_(points), parameters_(parameters)
-    , cosine_of_ridge_(std::cos(parameters.ridge_angle * M_PI / 180)), is_feature_(mesh.number_of_halfedges(), 0)
+    , cosine_of_ridge_(std::cos(parameters.ridge_angle * CGAL_PI / 180)), is_feature_(mesh.number_of_halfedges(), 0)
   {}
 
   template <class Execution>
@@ -212,7 +214,7 @@ private:
     if (along.empty()) return Vertex_class::smooth;
     if (along.size() != 2) return Vertex_class::corner;
     const Vector_3 a = points_[v] - points_[along[0]], b = points_[along[1]] - points_[v];
-    const bool straight = a.dot(b) >= std::cos(parameters_.corner_angle * M_PI / 180) * a.norm() * b.norm();
+    const bool straight = a.dot(b) >= std::cos(parameters_.corner_angle * CGAL_PI / 180) * a.norm() * b.norm();
     return straight ? Vertex_class::curve : Vertex_class::corner;
   }
 

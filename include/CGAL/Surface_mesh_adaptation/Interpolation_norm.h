@@ -8,6 +8,8 @@
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/Size_bounds.h>
 
+#include <CGAL/number_type_config.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,7 +51,7 @@ private:
         of_w += weight * std::pow(4 * std::sqrt(double(x * x + y * y + z * z - x * y - y * z - z * x)) / (n * n), p);
         of_sum += weight * std::pow(3.0 * (x + y + z) / (n * n), p);
       }
-    for (int i = 0; i < n; ++i) of_cosine += std::pow(std::abs(std::cos(M_PI * i / n)), p) / n;
+    for (int i = 0; i < n; ++i) of_cosine += std::pow(std::abs(std::cos(CGAL_PI * i / n)), p) / n;
     return 0.75 * std::pow(of_cosine * of_w / of_sum, 1 / p);
   }
 

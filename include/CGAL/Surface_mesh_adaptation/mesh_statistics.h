@@ -9,6 +9,8 @@
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 
+#include <CGAL/number_type_config.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -90,7 +92,7 @@ Mesh_statistics mesh_statistics(const Execution& execution, const Surface& surfa
   s.in_range /= double((std::max)(s.edges, std::size_t(1)));
   s.mean_length /= double((std::max)(s.edges, std::size_t(1)));
   s.mean_quality /= double((std::max)(s.faces, std::size_t(1)));
-  s.min_angle = std::atan2(1.0, sum.max_cotangent) * 180 / M_PI;
+  s.min_angle = std::atan2(1.0, sum.max_cotangent) * 180 / CGAL_PI;
   return s;
 }
 
