@@ -492,6 +492,15 @@ TYPED_TEST(Convergence, of_gregory_patches_is_of_fourth_order)
   EXPECT_LT(o.fine.distance, 0.03 * std::pow(surface.scale() * o.fine.h, 3) * o.fine.h);
 }
 
+TEST(Gregory_patch, is_of_sixth_order_on_spheres)
+{
+  const Orders o = orders<Gregory_reconstruction>(analytic::Sphere());
+  EXPECT_GT(o.distance, 5.4);
+  EXPECT_GT(o.rms_distance, 5.9);
+  EXPECT_GT(o.normal, 4.5);
+  EXPECT_GT(o.rms_normal, 4.9);
+}
+
 TYPED_TEST(Convergence, of_walton_and_meek_is_of_third_order)
 {
   const TypeParam surface;
