@@ -436,11 +436,11 @@ std::pair<double, double> errors_of_cycles(Mesh mesh, double size, const Off& of
 
 TEST(Adapt, does_not_drift_over_cycles_of_refinement_and_coarsening)
 {
-  // On the sphere one cycle leaves only 1e-6; what the insides of patches are off, all to one side, adds up.
+  // On the sphere one cycle leaves only 1e-6, what the estimates of normals are off.
   const auto sphere = errors_of_cycles(shapes::mesh<Mesh>(shapes::sphere(3, 0.2)), 0.16,
                                        [](const Vector_3& p) { return p.norm() - 1; });
   EXPECT_LT(sphere.first, 2e-6);
-  EXPECT_LT(sphere.second, 5e-6);
+  EXPECT_LT(sphere.second, 2.6e-6);
 
   const auto torus = errors_of_cycles(shapes::mesh<Mesh>(shapes::torus(48, 24, 0.2)), 0.13, [](const Vector_3& p) {
     return std::hypot(std::hypot(p[0], p[1]) - shapes::torus_large_radius, p[2]) - shapes::torus_small_radius;
@@ -463,7 +463,8 @@ TEST(Adapt, leaves_an_adapted_mesh_as_it_is)
   const std::set<Vector_3, decltype(less)> old(before.points.begin(), before.points.end(), less);
   std::size_t kept = 0;
   for (const Vector_3& p : shapes::soup(mesh).points) kept += old.count(p);
-  EXPECT_GE(double(kept), 0.99 * double(before.points.size()));
+  // what the last round of the first run moved may move again: .96 to .998 for other sizes and meshes
+  EXPECT_GE(double(kept), 0.95 * double(before.points.size()));
 }
 
 TEST(Adapt, carries_attributes_over)

@@ -492,6 +492,45 @@ TYPED_TEST(Convergence, of_gregory_patches_is_of_fourth_order)
   EXPECT_LT(o.fine.distance, 0.03 * std::pow(surface.scale() * o.fine.h, 3) * o.fine.h);
 }
 
+TEST(Gregory_patch, is_of_sixth_order_on_spheres)
+{
+  const Orders o = orders<Gregory_reconstruction>(analytic::Sphere());
+  EXPECT_GT(o.distance, 5.4);
+  EXPECT_GT(o.rms_distance, 5.9);
+  EXPECT_GT(o.normal, 4.5);
+  EXPECT_GT(o.rms_normal, 4.9);
+}
+
+/// Largest distance of patches of the size `h` to a cylinder of radius 1, with corners at random.
+double cylinder_error(double h)
+{
+  Random random(16);
+  double worst = 0;
+  for (int i = 0; i < 200; ++i) {
+    Patch p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double u = 2 * shapes::pi * double(k) / 3 + random.real(-0.4, 0.4), a = h * std::cos(u), z = h * std::sin(u);
+      p.normals[k] = Vector_3(std::cos(a), std::sin(a), 0);
+      p.points[k] = p.normals[k] + z * Vector_3::UnitZ();
+      const Vector_3 around = Vector_3::UnitZ().cross(p.normals[k]);
+      p.shape_operators[k] = Metric_tensor_3(SMA::Matrix_3(around * around.transpose()));
+      p.has_shape_operator[k] = true;
+    }
+    const Gregory_patch_3 g(p);
+    for (int u = 0; u <= 6; ++u)
+      for (int v = 0; u + v <= 6; ++v) {
+        const Vector_3 x = g.point(u / 6.0, v / 6.0);
+        worst = (std::max)(worst, std::abs(std::hypot(x[0], x[1]) - 1));
+      }
+  }
+  return worst;
+}
+
+TEST(Gregory_patch, is_of_sixth_order_on_cylinders)
+{
+  EXPECT_GT(std::log2(cylinder_error(0.2) / cylinder_error(0.05)) / 2, 5.8);
+}
+
 TYPED_TEST(Convergence, of_walton_and_meek_is_of_third_order)
 {
   const TypeParam surface;

@@ -155,13 +155,14 @@ private:
     s.a[0] = p.normals[i].cross(s.w[0]);
     s.a[2] = p.normals[j].cross(s.w[2]);
     if (construction == Construction::mid_edge && p.has_shape_operator[i] && p.has_shape_operator[j]) {
-      // n' = S c' at both ends, with c' = 3 W; the conormal at the middle gets the length of W there
+      // n' = S c' at both ends, with c' = 3 W
       const Vector_3 correction = 0.375 * (p.shape_operators[i] * s.w[0] - p.shape_operators[j] * s.w[2]);
       const Vector_3 w = (s.w[0] + 2 * s.w[1] + s.w[2]) / 4;
       const Vector_3 conormal = ((p.normals[i] + p.normals[j]) / 2 + correction).cross(w);
       const double squared_length = conormal.squaredNorm();
       if (correction.squaredNorm() < largest_correction * largest_correction && squared_length > 0) {
-        s.a[1] = 2 * std::sqrt(w.squaredNorm() / squared_length) * conormal - (s.a[0] + s.a[2]) / 2;
+        const double stretch = mid_edge_stretch(p, i, j) * std::sqrt(w.squaredNorm() / squared_length);
+        s.a[1] = 2 * stretch * conormal - (s.a[0] + s.a[2]) / 2;
         return s;
       }
     }
@@ -169,6 +170,19 @@ private:
     s.a[2].normalize();
     s.a[1] = (s.a[0] + s.a[2]).normalized();
     return s;
+  }
+
+  /// The length of the conormal at the middle of an edge over that of W: for the edge e on a surface with the Gauss
+  /// curvature K, 1 + K e^2 / 16. The twists that the two edges of a corner ask for differ, in its tangent plane, by
+  /// third order terms. On a sphere this factor, and no other, takes them away for triangles of any shape: without it the
+  /// middle of one with the area A is A^2 / (80 r^3) inside. Of the factors with the same value on spheres it is the one
+  /// that leaves cylinders, which are as good as planes, as they are.
+  static double mid_edge_stretch(const Patch& p, std::size_t i, std::size_t j)
+  {
+    const Metric_tensor_3 s = p.shape_operators[i] + p.shape_operators[j]; // twice the mean
+    const double curvature = ((s[0] * s[2] - s[1] * s[1]) + (s[0] * s[5] - s[3] * s[3]) + (s[2] * s[5] - s[4] * s[4])) / 4;
+    const double turn = curvature * (p.points[j] - p.points[i]).squaredNorm();
+    return 1 + std::clamp(turn, -1.0, 1.0) / 16; // beyond, shape operators are noise
   }
 
   /// The twists next to edge `i`: the derivative across it is `(l0 (1 - t) + l1 t) W(t) + (m0 (1 - t) + m1 t) A(t)`,

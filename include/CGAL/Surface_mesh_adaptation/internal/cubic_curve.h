@@ -34,14 +34,15 @@ inline Cubic_handles walton_meek_handles(const Vector_3& e, const Vector_3& na, 
   return {(third - 2 * p * na) + q * nb, (2 * q * nb - third) - p * na, false};
 }
 
-/// That curve with handles as long as those of a circle. Where the normals turn by an angle t along the edge, it bends
-/// by t, and handles shorter by t^2 / 48 leave the middle of a circle of radius r t^4 r / 384 inside. Measured: the rms
-/// distance of patches is .25 of what it is without on the sphere, .5 on the torus, .7 on the ellipsoid.
+/// That curve with handles as long as those of a helix. Where the normals turn by an angle t along the edge, in any
+/// direction, handles shorter by t^2 / 48 leave the middle of a geodesic with the curvature k inside by k t^2 e^2 / 384.
+/// Measured: the rms distance of patches is .004 of what it is without on spheres and cylinders, .35 on the torus, .7 on
+/// the ellipsoid.
 inline Cubic_handles smooth_handles(const Vector_3& e, const Vector_3& na, const Vector_3& nb)
 {
   const Cubic_handles h = walton_meek_handles(e, na, nb);
   if (h.is_straight) return h;
-  const double turn = nb.dot(e) - na.dot(e), scale = 1 + turn * turn / (48 * e.squaredNorm());
+  const double scale = 1 + (nb - na).squaredNorm() / 48;
   return {scale * h.start, scale * h.end, false};
 }
 
