@@ -419,7 +419,7 @@ TEST(Multiscale_tensor, has_the_determinant_of_the_optimal_density)
       EXPECT_NEAR(m.dot(u, v), 0, 1e-12);
       EXPECT_NEAR(m.dot(u, u) / m.dot(v, v), a / std::abs(b), 1e-9); // directions and ratio are kept
       const double error = norm.relative_error(sign) * std::sqrt(std::abs(a * b)); // on faces of unit area
-      EXPECT_NEAR(std::sqrt(m.dot(u, u) * m.dot(v, v)), std::pow(error, p / (p + 1)), 1e-6);
+      EXPECT_NEAR(std::sqrt(m.dot(u, u) * m.dot(v, v)), std::pow(error, p / (p + 1)), 1e-9);
     }
 }
 
