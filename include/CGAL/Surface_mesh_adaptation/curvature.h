@@ -83,7 +83,8 @@ std::vector<Metric_tensor_3> curvature_tensors(const Execution& execution, const
   const Corner_jets jets = estimate_jets(execution, mesh, points, samples);
   const auto has_bend = [&](Index h) {
     if (samples == Jet_fit::noisy || mesh.is_feature(h) || mesh.is_border(h)) return false;
-    return internal::is_flat<Reference> || !jets.agrees[jets.of_corner[h]];
+    return internal::is_flat<Reference> || (reference.features.vertex_class[mesh.source(h)] == Vertex_class::smooth &&
+                                            !jets.agrees[jets.of_corner[h]]);
   };
   return internal::intersect_sectors(execution, mesh, jets.of_corner, [&](Index sector) {
     return with_bounded_anisotropy(jets.shape_operators[sector], max_anisotropy);
