@@ -199,6 +199,45 @@ TEST(Features, that_are_short_and_isolated_are_noise)
   EXPECT_EQ(reference(sphere, constrained_chain(sphere, {v, w})).features.curves.size(), 1u);
 }
 
+/// Puts a vertex into face `f` that lies just beyond the edge from its corner `i` on: the face over that edge is folded
+/// over. Returns the new vertex.
+Index fold(Soup& s, std::size_t f, std::size_t i)
+{
+  const shapes::Triangle t = s.triangles[f];
+  const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3], x = Index(s.points.size());
+  const Vector_3 middle = 0.5 * (s.points[a] + s.points[b]);
+  s.points.push_back(middle + 0.02 * (middle - s.points[c]));
+  s.triangles[f] = {a, b, x};
+  s.triangles.push_back({b, c, x});
+  s.triangles.push_back({c, a, x});
+  return x;
+}
+
+TEST(Features, of_folded_slivers_are_those_of_the_faces_around)
+{
+  Soup sphere = shapes::sphere(3);
+  for (const std::size_t f : {0u, 500u, 900u}) fold(sphere, f, f % 3);
+  EXPECT_TRUE(reference(sphere).features.curves.empty());
+
+  // on a ridge: it takes the way around the sliver, through the new vertex
+  Soup cube = shapes::cube(5);
+  const auto is_on_edge = [&](Index v, Index w) {
+    const Vector_3 m = 0.5 * (cube.points[v] + cube.points[w]);
+    return (m.cwiseAbs().array() > 1 - 1e-9).count() == 2;
+  };
+  std::size_t f = 0, i = 0;
+  while (!is_on_edge(cube.triangles[f][i], cube.triangles[f][(i + 1) % 3])) {
+    i = (i + 1) % 3;
+    f += i == 0;
+  }
+  const Index x = fold(cube, f, i);
+  const Features features = reference(cube).features;
+  EXPECT_EQ(features.curves.size(), 12u);
+  EXPECT_EQ(count(features, Vertex_class::corner), 8u);
+  EXPECT_EQ(count(features, Vertex_class::curve), 12u * 4u + 1u);
+  EXPECT_EQ(features.vertex_class[x], Vertex_class::curve);
+}
+
 TEST(Features, of_tiny_holes_are_corners)
 {
   Soup s = shapes::sphere(3);

@@ -90,6 +90,9 @@ namespace internal {
 /// Feature edges with fewer edges than this in an isolated chain of ridges are taken for noise of the surface.
 constexpr std::size_t shortest_isolated_ridge = 5;
 
+/// Faces that are less high than this part of their longest edge are slivers.
+constexpr double sliver_height = 0.125;
+
 /// One run of the detection: marks, corners, chains.
 class Feature_detection
 {
@@ -103,6 +106,7 @@ public:
   Features run(const Execution& execution)
   {
     mark_feature_edges(execution);
+    unmark_slivers(execution);
     // what follows is sequential, but only along the features
     feature_vertices_ = pack(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
       return feature_degree(Index(v)) > 0;
@@ -132,7 +136,11 @@ private:
 
   bool is_ridge(Index h) const
   {
-    const Vector_3 a = normal(Mesh_view::face(h)), b = normal(Mesh_view::face(mesh_.twin[h]));
+    return is_turned(normal(Mesh_view::face(h)), normal(Mesh_view::face(mesh_.twin[h])));
+  }
+
+  bool is_turned(const Vector_3& a, const Vector_3& b) const
+  {
     return a.dot(b) < cosine_of_ridge_ * std::sqrt(a.squaredNorm() * b.squaredNorm());
   }
 
@@ -151,6 +159,42 @@ private:
       if (!mesh_.is_border(h)) is_feature_[mesh_.twin[h]] = mark;
     });
   }
+
+  /// Slivers that turn away from all their neighbours are folds rather than shapes. Their normals mean nothing: that of
+  /// the face behind the longest edge, on which a sliver lies, takes their place.
+  template <class Execution>
+  void unmark_slivers(const Execution& execution)
+  {
+    const std::vector<Index> folds = pack(execution, mesh_.number_of_faces(), [&](std::size_t f) {
+      return is_fold(Index(f));
+    });
+    for (const Index f : folds) {
+      const Index longest = longest_edge(f);
+      const Vector_3 n = normal(Mesh_view::face(mesh_.twin[longest]));
+      set_mark(longest, none);
+      for (const Index h : {Mesh_view::next(longest), Mesh_view::previous(longest)})
+        set_mark(h, is_turned(n, normal(Mesh_view::face(mesh_.twin[h]))) ? ridge : none);
+    }
+  }
+
+  /// Whether all edges of a face are ridges, and its height is a small part of its longest edge.
+  bool is_fold(Index f) const
+  {
+    const Index h = 3 * f;
+    if (is_feature_[h] != ridge || is_feature_[h + 1] != ridge || is_feature_[h + 2] != ridge) return false;
+    const Index longest = longest_edge(f);
+    const double squared_length = (points_[mesh_.target(longest)] - points_[mesh_.source(longest)]).squaredNorm();
+    return normal(f).norm() < sliver_height * squared_length;
+  }
+
+  Index longest_edge(Index f) const
+  {
+    const auto squared_length = [&](Index h) { return (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm(); };
+    const Index h = 3 * f;
+    return (std::max)({h, h + 1, h + 2}, [&](Index a, Index b) { return squared_length(a) < squared_length(b); });
+  }
+
+  void set_mark(Index h, Mark mark) { is_feature_[h] = is_feature_[mesh_.twin[h]] = mark; }
 
   /// Calls `f(w, mark)` for the neighbours `w` of `v` along feature edges.
   template <class F>
@@ -200,10 +244,7 @@ private:
 
   void unmark(const std::vector<Index>& chain)
   {
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-      const Index h = mesh_.halfedge(chain[i - 1], chain[i]);
-      is_feature_[h] = is_feature_[mesh_.twin[h]] = none;
-    }
+    for (std::size_t i = 1; i < chain.size(); ++i) set_mark(mesh_.halfedge(chain[i - 1], chain[i]), none);
   }
 
   Vertex_class classify(Index v) const
