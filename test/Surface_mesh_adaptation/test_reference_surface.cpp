@@ -163,19 +163,19 @@ TEST(Features, of_constrained_vertices_are_corners)
   EXPECT_EQ(loops, 1u);
 }
 
-/// A plane with a crease of `length` edges in its middle.
-Soup creased(Index length)
+/// A plane with a crease of `length` edges in its middle, which is lifted by `height`.
+Soup creased(Index length, double height)
 {
   const Index n = 20;
   Soup s = shapes::square(n);
-  for (Index i = 0; i <= length; ++i) s.points[(n / 2) * (n + 1) + 4 + i][2] = 0.06; // turns by more than 45 degrees
+  for (Index i = 0; i <= length; ++i) s.points[(n / 2) * (n + 1) + 4 + i][2] = height;
   return s;
 }
 
 TEST(Features, that_are_short_and_isolated_are_noise)
 {
   // a spike: ridges around it branch, thus are no chain; what counts is that long creases stay
-  const Surface s = reference(creased(9));
+  const Surface s = reference(creased(9, 0.06)); // turns by more than 45 degrees at its foot, too
   EXPECT_GT(s.features.curves.size(), 4u);
 
   // an edge that is lifted out of a sphere until it is just sharp
@@ -197,6 +197,21 @@ TEST(Features, that_are_short_and_isolated_are_noise)
   EXPECT_TRUE(reference(sphere).features.curves.empty());
   // unless the user insists
   EXPECT_EQ(reference(sphere, constrained_chain(sphere, {v, w})).features.curves.size(), 1u);
+}
+
+TEST(Features, that_branch_off_others_and_end_at_once_are_noise)
+{
+  const auto number_of_curves = [](Index length, bool is_branch) {
+    const Soup s = creased(length, 0.028);
+    const Index row = 21, start = 10 * row + 4; // of the crease: a constrained curve runs through it
+    const Feature_parameters p = is_branch ? constrained_chain(s, {start - row, start, start + row}) : Feature_parameters();
+    return reference(s, p).features.curves.size();
+  };
+  const std::size_t boundary = 4;
+  EXPECT_EQ(number_of_curves(2, true), boundary + 1);
+  EXPECT_EQ(number_of_curves(4, true), boundary + 3);
+  EXPECT_EQ(number_of_curves(4, false), boundary);
+  EXPECT_EQ(number_of_curves(5, false), boundary + 1);
 }
 
 /// Puts a vertex into face `f` that lies just beyond the edge from its corner `i` on: the face over that edge is folded

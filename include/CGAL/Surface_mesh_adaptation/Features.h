@@ -87,8 +87,9 @@ struct Features
 
 namespace internal {
 
-/// Feature edges with fewer edges than this in an isolated chain of ridges are taken for noise of the surface.
-constexpr std::size_t shortest_isolated_ridge = 5;
+/// Open chains of fewer ridges than this are taken for noise of the surface: those that touch nothing else, and those
+/// that branch off others.
+constexpr std::size_t shortest_isolated_ridge = 5, shortest_branch = 3;
 
 /// Faces that are less high than this part of their longest edge are slivers.
 constexpr double sliver_height = 0.125;
@@ -111,7 +112,7 @@ public:
     feature_vertices_ = pack(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
       return feature_degree(Index(v)) > 0;
     });
-    if (parameters_.detect_ridges) remove_isolated_ridges();
+    if (parameters_.detect_ridges) remove_short_ridges();
     features_.vertex_class.assign(mesh_.number_of_vertices(), Vertex_class::smooth);
     features_.node_of_vertex.assign(mesh_.number_of_vertices(), Curve_node());
     for_each_index(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
@@ -215,31 +216,36 @@ private:
     return n;
   }
 
-  /// Ridges that form a short open chain touching nothing else.
-  void remove_isolated_ridges()
+  /// Ridges that form a short chain with an open end: touching nothing else, or still shorter, branching off others.
+  void remove_short_ridges()
   {
-    std::vector<std::uint8_t> visited(mesh_.number_of_vertices(), 0);
     for (const Index v : feature_vertices_) {
-      if (visited[v] || feature_degree(v) != 1) continue;
-      std::vector<Index> chain{v};
-      bool isolated = true;
-      Index previous = no_index;
-      for (Index current = v; current != no_index;) {
-        visited[current] = 1;
-        const std::size_t degree = feature_degree(current);
-        Index next = no_index;
-        for_each_feature_neighbor(current, [&](Index w, std::uint8_t mark) {
-          if (mark != ridge) isolated = false;
-          if (w != previous) next = w;
-        });
-        if (degree > 2 || chain.size() > shortest_isolated_ridge) isolated = false;
-        if (!isolated || (degree == 1 && previous != no_index)) break;
-        chain.push_back(next);
-        previous = current;
-        current = next;
-      }
-      if (isolated && chain.size() <= shortest_isolated_ridge) unmark(chain);
+      if (feature_degree(v) != 1) continue;
+      const std::vector<Index> chain = open_chain_from(v);
+      const std::size_t shortest = feature_degree(chain.back()) == 1 ? shortest_isolated_ridge : shortest_branch;
+      if (chain.size() <= shortest) unmark(chain);
     }
+  }
+
+  /// The vertices of the ridges from the open end `v` on to where they end or branch, or turn into other features; no
+  /// more of them than are of interest.
+  std::vector<Index> open_chain_from(Index v) const
+  {
+    std::vector<Index> chain{v};
+    Index previous = no_index;
+    do {
+      Index next = no_index;
+      std::uint8_t mark_of_next = none;
+      for_each_feature_neighbor(chain.back(), [&](Index w, std::uint8_t mark) {
+        if (w == previous) return;
+        next = w;
+        mark_of_next = mark;
+      });
+      if (mark_of_next != ridge) break;
+      previous = chain.back();
+      chain.push_back(next);
+    } while (feature_degree(chain.back()) == 2 && chain.size() <= shortest_isolated_ridge);
+    return chain;
   }
 
   void unmark(const std::vector<Index>& chain)
