@@ -41,7 +41,7 @@ public:
   {
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
-    if (report_.initial.in_range > adapted_share) relocation_.expect_adapted();
+    relocation_.expect_adapted(report_.initial.in_range > adapted_share);
     find_work();
     do_rounds(rounds, report_.initial);
     if (number_of_vertices > 0) meet_number(number_of_vertices);
@@ -139,6 +139,7 @@ private:
     for (std::size_t i = 0; i < rounds && !report_.stopped; ++i) {
       visitor_.round_begins(round_, round_ + rounds - i);
       do_round();
+      relocation_.expect_adapted(false);
       report_.after_round.push_back(mesh_statistics(execution_, surface_));
       visitor_.round_done(round_, current());
       ++round_;

@@ -38,7 +38,7 @@ struct Relocation_thresholds
   double good_quality_on_curves = 0.65; ///< the same for vertices on curves: equal lengths along these count, too
   double least_alignment = min_alignment; ///< cosine between a face and the normals at its corners, unless it was less
   double min_move = 0.03;      ///< metric length below which a move is not worth it
-  double noticeable_move = 0.2; ///< the same in the first sweep over a mesh that is adapted already
+  double noticeable_move = 0.2; ///< the same in the first round over a mesh that is adapted already
 };
 
 template <class Surface, class Execution>
@@ -52,8 +52,11 @@ public:
     , min_move_(thresholds.min_move)
   {}
 
-  /// Leaves a mesh that is adapted already as it is, but for noticeable moves and what follows from them.
-  void expect_adapted() { min_move_ = thresholds_.noticeable_move; }
+  /// Whether the mesh is adapted already: it is left as it is then, but for noticeable moves.
+  void expect_adapted(bool is_adapted)
+  {
+    min_move_ = is_adapted ? thresholds_.noticeable_move : thresholds_.min_move;
+  }
 
   /// Examines every active vertex once. Returns the number of vertices moved.
   std::size_t sweep(Sweep_counts& counts)
@@ -79,7 +82,6 @@ public:
     const std::vector<Index> late = sweep_block_borders(execution_, mesh_, deferred, local, visit);
     std::vector<Index> never;
     for (const Index v : late) visit(v, [](Index) { return true; }, local, never);
-    min_move_ = thresholds_.min_move;
     ++local.sweeps;
     counts += local;
     return local.applied;
