@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -44,37 +45,41 @@ public:
   /// Calls `f(h)` for a halfedge that leaves the neighbour `i` in each face around it, from the one it was found in
   /// both ways to the next feature.
   template <class F>
-  void for_each_face_around(std::size_t i, const F& f) const { for_each_in_fan(corners_[i], f); }
+  void for_each_face_around(std::size_t i, const F& f) const
+  {
+    f(corners_[i]);
+    walk_around(corners_[i], f, f);
+  }
 
 private:
-  template <class F>
-  void for_each_in_fan(Index h, const F& f) const
+  /// Calls `after(g)` or `before(g)` for the halfedges that leave the source of `h` in the other faces of its fan: those on
+  /// the way counterclockwise, then those clockwise.
+  template <class After, class Before>
+  void walk_around(Index h, const After& after, const Before& before) const
   {
-    f(h);
     Index g = h;
     for (int i = 0; i < longest_walk && can_cross(Mesh_view::previous(g)); ++i) {
       g = mesh_.rotated_ccw(g);
       if (g == h) return;
-      f(g);
+      after(g);
     }
     g = h;
     for (int i = 0; i < longest_walk && can_cross(g); ++i) {
       g = mesh_.rotated_cw(g);
       if (g == h) return;
-      f(g);
+      before(g);
     }
   }
 
   static constexpr std::size_t hub_degree = 32;
   static constexpr int longest_walk = 6; // faces each way: the whole fan of usual vertices, what is near of a hub's
 
-  /// Adds the vertices of the faces around the source of `h`.
+  /// Adds the vertices of the faces around the source of `h`: each face has one that the last one had not.
   void add_fan(Index h)
   {
-    for_each_in_fan(h, [&](Index g) {
-      add(Mesh_view::next(g));
-      add(Mesh_view::previous(g));
-    });
+    add(Mesh_view::next(h));
+    add(Mesh_view::previous(h));
+    walk_around(h, [&](Index g) { add(Mesh_view::previous(g)); }, [&](Index g) { add(Mesh_view::next(g)); });
   }
 
   bool can_cross(Index h) const { return !mesh_.is_feature(h) && !mesh_.is_border(h); }
@@ -82,18 +87,24 @@ private:
   void add(Index corner)
   {
     const Index v = mesh_.source(corner);
-    if (v != center_ && std::find(vertices_.begin(), vertices_.end(), v) == vertices_.end()) append(corner);
+    if (v == center_ || v == vertices_.back()) return;
+    if ((seen_ & bit_of(v)) == 0 || std::find(vertices_.begin(), vertices_.end(), v) == vertices_.end()) append(corner);
   }
+
+  /// One of 64, the same for equal vertices: most of those that are not there yet need not be looked for.
+  static std::uint64_t bit_of(Index v) { return std::uint64_t(1) << (v % 64); }
 
   void append(Index corner)
   {
     corners_.push_back(corner);
     vertices_.push_back(mesh_.source(corner));
+    seen_ |= bit_of(vertices_.back());
   }
 
   const Mesh_view& mesh_;
   Index center_;
   std::size_t last_ring_ = 0;
+  std::uint64_t seen_ = 0; ///< the bits of all vertices
   boost::container::small_vector<Index, 48> vertices_, corners_; // corner: one of the vertex, in the neighbourhood
 };
 
