@@ -72,24 +72,6 @@ Mesh shuffled(const Mesh& mesh)
   return result;
 }
 
-/// Four times as long in a direction that turns along the axis as across it.
-SMA::Metric_tensor_3 turning_tensor(const SMA::Vector_3& p, double size, double period)
-{
-  const double angle = p[1] / period;
-  const SMA::Vector_3 along(std::cos(angle), 0, std::sin(angle));
-  const double across_value = 1 / (size * size), along_value = across_value / 16;
-  SMA::Matrix_3 axes;
-  axes.col(0) = along;
-  axes.col(1) = SMA::Vector_3(0, 1, 0);
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  return SMA::metric_tensor(SMA::Vector_3(along_value, across_value, across_value), axes);
-}
-
-auto turning_field(double size, double period)
-{
-  return SMA::Analytic_metric_field([=](const SMA::Vector_3& p) { return turning_tensor(p, size, period); });
-}
-
 void print_kernels(const Run& run)
 {
   std::printf("  %-10s %6s %10s %10s %10s %8s %12s %22s\n", "kernel", "sweeps", "candidates", "applied", "deferred",
@@ -166,7 +148,7 @@ void print_costs_and_orders(const Jobs& jobs)
   const Run refined = jobs.refine(jobs.coarse), coarsened = jobs.coarsen(jobs.fine);
   print_cost("uniform, refined by 4", jobs.coarse, refined);
   print_cost("uniform, coarsened by 4", jobs.fine, coarsened);
-  const Run stretched = jobs.run(jobs.coarse, turning_field(0.8 * jobs.fine_size, 100 * jobs.fine_size));
+  const Run stretched = jobs.run(jobs.coarse, bench::turning_field(0.8 * jobs.fine_size, 100 * jobs.fine_size));
   print_cost("anisotropic, 4 : 1, turning", jobs.coarse, stretched);
   std::printf("shuffled over ordered input: %.3f of the time where it is refined, %.3f where it is coarsened\n",
               jobs.refine(shuffled(jobs.coarse)).processor / refined.processor,

@@ -42,6 +42,24 @@ inline double mean_edge_length(const Mesh& mesh)
   return sum / double(mesh.number_of_edges());
 }
 
+/// Four times as long in a direction that turns along the axis as across it.
+inline SMA::Metric_tensor_3 turning_tensor(const SMA::Vector_3& p, double size, double period)
+{
+  const double angle = p[1] / period;
+  const SMA::Vector_3 along(std::cos(angle), 0, std::sin(angle));
+  const double across_value = 1 / (size * size), along_value = across_value / 16;
+  SMA::Matrix_3 axes;
+  axes.col(0) = along;
+  axes.col(1) = SMA::Vector_3(0, 1, 0);
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return SMA::metric_tensor(SMA::Vector_3(along_value, across_value, across_value), axes);
+}
+
+inline auto turning_field(double size, double period)
+{
+  return SMA::Analytic_metric_field([=](const SMA::Vector_3& p) { return turning_tensor(p, size, period); });
+}
+
 /// Seconds of all threads of this program together: what other programs take meanwhile does not count.
 inline double processor_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
