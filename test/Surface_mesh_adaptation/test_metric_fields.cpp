@@ -905,6 +905,57 @@ TEST(Number_of_vertices, gives_way_to_the_bounds_of_the_sizes)
   EXPECT_NEAR(double(adapted.number_of_vertices()), n, 0.05 * n);
 }
 
+/// The unit sphere adapted to sizes of .2 but across its equator, where they are .2 over `anisotropy` in the middle.
+struct Layer_on_a_sphere
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(4, 0.3));
+  SMA::Mesh_statistics statistics;
+
+  template <class Execution>
+  Layer_on_a_sphere(const Execution& execution, double anisotropy, unsigned rounds = SMA::default_number_of_rounds)
+  {
+    const SMA::Analytic_metric_field field([=](const Vector_3& p) {
+      const double least = 0.2 / anisotropy, h = least + (0.2 - least) * std::abs(p[1]);
+      return SMA::metric_tensor(Vector_3(25, 1 / (h * h), 25), Matrix_3::Identity());
+    });
+    statistics = SMA::adapt_surface_mesh(execution, mesh, field, SMA::parameters::number_of_iterations(rounds)).final;
+  }
+
+  /// The least cosine between a face and the sphere at its corners.
+  double least_alignment() const
+  {
+    const Soup soup = shapes::soup(mesh);
+    double least = 1;
+    for (const shapes::Triangle& t : soup.triangles) {
+      const Vector_3 &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
+      const Vector_3 n = (b - a).cross(c - a).normalized();
+      for (const Vector_3& p : {a, b, c}) least = (std::min)(least, n.dot(p) / p.norm());
+    }
+    return least;
+  }
+};
+
+TEST(Analytic_metric_field, of_a_thin_layer_around_a_sphere_is_met)
+{
+  for (const double anisotropy : {100, 1000}) { // edges along it cut 2.5 and 25 smallest sizes deep into the sphere
+    const Layer_on_a_sphere layer(sequential, anisotropy);
+    EXPECT_GT(layer.statistics.in_range, anisotropy > 100 ? 0.92 : 0.98);
+    EXPECT_GT(layer.statistics.mean_quality, anisotropy > 100 ? 0.9 : 0.96);
+    EXPECT_GT(layer.statistics.min_quality, 0.2);
+    EXPECT_GT(layer.least_alignment(), 0.9 * SMA::min_alignment_of_thin_faces); // normals are estimated
+  }
+}
+
+TEST(Analytic_metric_field, of_a_thin_layer_gives_the_same_bits_with_every_policy)
+{
+  const Soup expected = shapes::soup(Layer_on_a_sphere(sequential, 100, 2).mesh);
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    const Soup soup = shapes::soup(Layer_on_a_sphere(execution, 100, 2).mesh);
+    EXPECT_EQ(soup.points, expected.points) << name;
+    EXPECT_EQ(soup.triangles, expected.triangles) << name;
+  });
+}
+
 TEST(Solution_metric_field, of_a_constant_asks_for_the_largest_size)
 {
   Mesh mesh = shapes::mesh<Mesh>(shapes::torus(40, 16, 0.2));

@@ -227,7 +227,7 @@ private:
   static constexpr double negligible_share = 0.004;
   static constexpr double refine_share = 0.01;           // a sweep rewrites the mesh, even for a single edge, so
   static constexpr double first_refine_share = 0.0015;   // a few edges wait for the first sweep of the next round
-  static constexpr int max_corrections = 4;              // of the metric, for a number of vertices
+  static constexpr int max_corrections = 8;              // of the metric, for a number of vertices
   static constexpr double largest_scale = 1.2;           // of the metric meanwhile, its logarithm: lengths by 1.8
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;

@@ -22,6 +22,33 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+/// Least cosine between a face and the surface normals at its corners that an operation may create, unless one of the
+/// faces it replaces was worse: 60 degrees.
+constexpr double min_alignment = 0.5;
+
+/// The same for thin faces between smooth vertices, in anisotropic metrics: 84 degrees. A long edge along a thin layer
+/// lies deeper below a curved surface than the face beside it is high. The face stands upright there, but next to the
+/// surface.
+constexpr double min_alignment_of_thin_faces = 0.1;
+
+/// Height of a thin face, at most, in lengths of its longest edge.
+constexpr double max_thin_height = 0.05;
+
+/// Whether the triangle with the edge vectors `e1`, `e2` from its first corner, and their cross product `n`, is thin.
+inline bool is_thin(const Vector_3& e1, const Vector_3& e2, const Vector_3& n)
+{
+  const double longest = (std::max)({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()});
+  return n.squaredNorm() < max_thin_height * max_thin_height * longest * longest;
+}
+
+/// The least cosine between a thin face and the surface normals at its corners, as it counts among those of others:
+/// from `limit_of_thin` on not less than their `limit`.
+inline double alignment_of_thin_face(double cosine, double limit = min_alignment,
+                                     double limit_of_thin = min_alignment_of_thin_faces)
+{
+  return cosine >= limit_of_thin ? (std::max)(cosine, limit) : cosine;
+}
+
 /// Cosine between a face and the surface normals at its corners from which on none of its edges can be a fold:
 /// 30 degrees, for a face that is not flat may deviate by the other 60.
 constexpr double flat_alignment = 0.87;
@@ -120,6 +147,7 @@ public:
   }
 
   /// Smallest cosine between the normal of the face and the surface normals of its corners; 1 if none of them has one.
+  /// Thin faces count as in `alignment_of_thin_face()`.
   double alignment(Index a, Index b, Index c) const
   {
     return alignment(normal(a, b, c), a, b, c);
@@ -130,8 +158,12 @@ public:
     double least = 1;
     for (Index v : {a, b, c})
       if (vertex_class(v) == Vertex_class::smooth) least = (std::min)(least, unit_normal.dot(normals[v]));
-    return least;
+    return least < min_alignment && is_thin(a, b, c) ? alignment_of_thin_face(least) : least;
   }
+
+  /// Whether the face is thin and may stand on the surface, which curves and isotropic metrics do not ask for. Where it
+  /// is turned by less than 90 degrees from the normals at smooth corners, nothing is folded around these.
+  bool is_thin(Index a, Index b, Index c) const { return is_thin(points[a], a, b, c); }
 
   /// Whether the face is so near to the surface at all corners that it cannot be part of a fold.
   bool is_flat(const Vector_3& unit_normal, Index a, Index b, Index c) const
@@ -151,8 +183,9 @@ public:
 
   Vector_3 normal(Index h) const { return normal(mesh.source(h), mesh.target(h), mesh.apex(h)); }
 
-  /// Least cosine between two faces that meet at a smooth edge of a face around `v`, if `v` were at `p`. Faces that
-  /// degenerate there, as those of an edge that is collapsed, give their place to the face behind them.
+  /// Least cosine between two faces that meet at a smooth edge of a face around `v`, if `v` were at `p`; those of thin
+  /// faces do not count. Faces that degenerate there, as those of an edge that is collapsed, give their place to the
+  /// face behind them.
   /// Reads the faces behind those around `v`, so no vertex may move meanwhile.
   double sharpest_fold(Index v, const Vector_3& p) const
   {
@@ -163,13 +196,16 @@ public:
     const auto is_crossed = [&](Index h) { return mesh.is_feature(h) || points[mesh.target(h)] == p; };
     Vector_3 first = Vector_3::Zero(), last = Vector_3::Zero();
     mesh.for_each_outgoing(v, [&](Index h) {
-      const Vector_3 cross = (points[mesh.target(h)] - p).cross(points[mesh.apex(h)] - p);
-      Vector_3 n = cross.norm() > 0 ? Vector_3(cross.normalized()) : Vector_3(Vector_3::Zero());
+      const Index x = mesh.target(h), y = mesh.apex(h);
+      const Vector_3 cross = (points[x] - p).cross(points[y] - p);
+      const bool is_degenerate = !(cross.norm() > 0);
+      Vector_3 n = is_degenerate || is_thin(p, v, x, y) ? Vector_3(Vector_3::Zero()) : Vector_3(cross.normalized());
       const Index ring_edge = Mesh_view::next(h);
       if (!mesh.is_feature(ring_edge)) {
-        const Vector_3 behind = normal(mesh.twin[ring_edge]);
+        const Index t = mesh.twin[ring_edge], z = mesh.apex(t);
+        const Vector_3 behind = is_thin(y, x, z) ? Vector_3(Vector_3::Zero()) : normal(t);
         meet(n, behind);
-        if (n == Vector_3::Zero()) n = behind;
+        if (is_degenerate) n = behind;
       }
       if (h == mesh.outgoing[v]) first = n;
       else if (!is_crossed(h)) meet(last, n);
@@ -294,6 +330,18 @@ private:
       return 0.5;
     const double random = double(hash_of_id(std::uint64_t(a) << 32 | b) >> 11) * 0x1p-53; // in [0, 1)
     return 0.5 + max_shift * (2 * random - 1);
+  }
+
+  /// The same if `a` were at `p`.
+  bool is_thin(const Vector_3& p, Index a, Index b, Index c) const
+  {
+    if constexpr (is_anisotropic<Metric>) {
+      for (const Index v : {a, b, c})
+        if (vertex_class(v) != Vertex_class::smooth) return false;
+      const Vector_3 e1 = points[b] - p, e2 = points[c] - p;
+      return Surface_mesh_adaptation::is_thin(e1, e2, e1.cross(e2));
+    }
+    return false;
   }
 
   internal::Squared_shape squared_shape(Index a, Index b, Index c) const

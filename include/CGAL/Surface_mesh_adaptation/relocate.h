@@ -20,7 +20,7 @@ Moves vertices on the surface to improve the faces around them (paper, section 3
     \cgalParamDescription{the largest angle between a face and the normals of the surface at its corners that a move may
                           leave, unless it was larger: the paper's theta_max}
     \cgalParamType{`double`, in degrees, above 0 and up to 180}
-    \cgalParamDefault{60}
+    \cgalParamDefault{60, and 84 for thin faces in anisotropic metrics}
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
@@ -34,6 +34,8 @@ auto relocate(const Execution& execution, TriangleMesh& mesh, const MetricField&
 {
   Relocation_thresholds thresholds;
   thresholds.least_alignment = internal::cosine_of_normal_deviation(np, thresholds.least_alignment);
+  thresholds.least_alignment_of_thin_faces =
+    internal::cosine_of_normal_deviation(np, thresholds.least_alignment_of_thin_faces);
   return internal::run_kernel(execution, mesh, field, np, 10, [&](const auto& policy, auto& surface) {
     return Relocation(policy, surface, thresholds);
   }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });

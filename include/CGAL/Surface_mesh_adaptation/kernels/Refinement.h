@@ -232,12 +232,6 @@ private:
     active_[v] = active;
   }
 
-  Vector_3 new_normal(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels) const
-  {
-    const Vector_3& p = points_[plan.vertex_of_label(f, labels[0])];
-    return (points_[plan.vertex_of_label(f, labels[1])] - p).cross(points_[plan.vertex_of_label(f, labels[2])] - p);
-  }
-
   /// Whether the midpoints of the face lie between the ends of their edges: else splitting would go on for ever.
   bool are_halves_shorter(const Restructuring& plan, Index f) const
   {
@@ -282,8 +276,8 @@ private:
     codes_.swap(chosen_);
   }
 
-  /// Whether the children neither turn far from their parent nor, further than it does, from the surface normals at
-  /// their corners.
+  /// Whether the children turn neither far from their parent, unless they are thin, nor, further than it does, from the
+  /// surface normals at their corners.
   bool are_children_upright(const Restructuring& plan, Index f, std::uint8_t code) const
   {
     const auto& pattern = internal::Split_pattern::of(code);
@@ -291,16 +285,29 @@ private:
     const Vector_3 parent = surface_.normal(a, b, c);
     const double limit = (std::min)(min_alignment, surface_.alignment(parent, a, b, c));
     for (std::size_t i = 0; i < std::size_t(pattern.number_of_children); ++i) {
-      const Vector_3 normal = new_normal(plan, f, pattern.child[i]);
-      const double length = normal.norm();
-      if (!(normal.dot(parent) > min_turn * length)) return false;
-      for (const std::uint8_t label : pattern.child[i]) {
-        const Vector_3& n = normals_[plan.vertex_of_label(f, label)];
-        if (n != Vector_3::Zero() && normal.dot(n) < limit * length) return false;
-      }
+      if (!is_child_upright(plan, f, pattern.child[i], parent, limit)) return false;
       if (surface_.has_tolerance() && !child_keeps_tolerance(plan, f, pattern.child[i])) return false;
     }
     return true;
+  }
+
+  bool is_child_upright(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels,
+                        const Vector_3& parent, double limit) const
+  {
+    std::array<Vector_3, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = points_[plan.vertex_of_label(f, labels[i])];
+    const Vector_3 e1 = p[1] - p[0], e2 = p[2] - p[0], normal = e1.cross(e2);
+    const double length = normal.norm();
+    double least = length;
+    bool is_smooth = true;
+    for (const std::uint8_t label : labels) {
+      const Vector_3& n = normals_[plan.vertex_of_label(f, label)];
+      if (n == Vector_3::Zero()) is_smooth = false;
+      else least = (std::min)(least, normal.dot(n));
+    }
+    if (normal.dot(parent) > min_turn * length && least >= limit * length) return true;
+    return is_anisotropic<Metric> && is_smooth && length > 0 && is_thin(e1, e2, normal) &&
+           alignment_of_thin_face(least / length) >= limit;
   }
 
   bool child_keeps_tolerance(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels) const

@@ -37,6 +37,7 @@ struct Relocation_thresholds
   double good_quality = 0.8;   ///< moves that leave no face below are always accepted; worse faces are optimised
   double good_quality_on_curves = 0.65; ///< the same for vertices on curves: equal lengths along these count, too
   double least_alignment = min_alignment; ///< cosine between a face and the normals at its corners, unless it was less
+  double least_alignment_of_thin_faces = min_alignment_of_thin_faces; ///< the same, see `alignment_of_thin_face()`
   double min_move = 0.03;      ///< metric length below which a move is not worth it
   double noticeable_move = 0.2; ///< the same in the first round over a mesh that is adapted already
 };
@@ -206,7 +207,7 @@ private:
     return s;
   }
 
-  static Shape shape(const Star& star, const Placed_vertex<Metric>& v)
+  Shape shape(const Star& star, const Placed_vertex<Metric>& v) const
   {
     Shape s;
     star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
@@ -216,9 +217,15 @@ private:
       const double q = internal::squared_shape(v.metric, a.metric, b.metric, ea, eb, n).quality();
       s.worst = (std::min)(s.worst, q);
       double least = length;
+      bool is_smooth = true;
       for (const Vector_3* m : {&v.normal, &a.normal, &b.normal})
         if (*m != Vector_3::Zero()) least = (std::min)(least, n.dot(*m));
-      s.alignment = (std::min)(s.alignment, length > 0 ? least / length : -1);
+        else is_smooth = false;
+      double alignment = length > 0 ? least / length : -1;
+      if (is_anisotropic<Metric> && is_smooth && is_thin(ea, eb, n))
+        alignment = alignment_of_thin_face(alignment, thresholds_.least_alignment,
+                                           thresholds_.least_alignment_of_thin_faces);
+      s.alignment = (std::min)(s.alignment, alignment);
     });
     return s;
   }

@@ -183,13 +183,22 @@ private:
       const Vector_3 n = surface_.normal(d, f.x, f.y);
       is_flat = is_flat && surface_.is_flat(n, d, f.x, f.y);
       if (!(new_quality > quality_limit && new_quality > 0 && is_fit(f.x) && is_fit(f.y) &&
-            surface_.alignment(n, d, f.x, f.y) >= alignment_limit && n.dot(f.normal) >= min_turn_of_collapse &&
-            (surface_.vertex_class(s) != Vertex_class::smooth || n.dot(surface_.normals[s]) >= alignment_limit)))
+            is_upright(f, n, s, d, alignment_limit)))
         return false;
     }
     return !(is_long && is_fit_worse(e)) && mesh_.is_collapsible(e) &&
            (is_flat || is_unfolded(surface_, s, surface_.points[d], is_seen, is_put_off)) &&
            (!surface_.has_tolerance() || keeps_tolerance(s, d));
+  }
+
+  /// Whether the face with the normal `n` that replaces `f` when `s` vanishes in `d` turns far neither from `f`, unless
+  /// both are thin, nor from the surface at its corners and at `s`.
+  bool is_upright(const typename Star::Face& f, const Vector_3& n, Index s, Index d, double limit) const
+  {
+    if (surface_.alignment(n, d, f.x, f.y) < limit) return false;
+    const double at_s = surface_.vertex_class(s) == Vertex_class::smooth ? n.dot(surface_.normals[s]) : 1;
+    if (n.dot(f.normal) >= min_turn_of_collapse && at_s >= limit) return true;
+    return surface_.is_thin(d, f.x, f.y) && surface_.is_thin(s, f.x, f.y) && alignment_of_thin_face(at_s) >= limit;
   }
 
   /// Whether the edges that a collapse creates fit the metric less than those that it removes.

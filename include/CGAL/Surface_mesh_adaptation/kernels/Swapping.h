@@ -196,9 +196,13 @@ private:
     const double limit = (std::min)({min_alignment, surface_.alignment(old1, p, q, b), surface_.alignment(old2, q, p, a)});
     if (surface_.alignment(new1, a, b, p) < limit || surface_.alignment(new2, b, a, q) < limit) return false;
     const double turn = (std::min)(min_turn, old1.dot(old2));
-    if ((std::min)({new1.dot(old1), new1.dot(old2), new2.dot(old1), new2.dot(old2), new1.dot(new2)}) < turn) return false;
+    const bool is_thin = surface_.is_thin(p, q, b) && surface_.is_thin(q, p, a) && surface_.is_thin(a, b, p) &&
+                         surface_.is_thin(b, a, q);
+    if (!is_thin &&
+        (std::min)({new1.dot(old1), new1.dot(old2), new2.dot(old1), new2.dot(old2), new1.dot(new2)}) < turn)
+      return false;
     if (surface_.has_tolerance() && !keeps_tolerance(p, q, a, b)) return false;
-    if (surface_.is_flat(new1, a, b, p) && surface_.is_flat(new2, b, a, q)) return true;
+    if (is_thin || (surface_.is_flat(new1, a, b, p) && surface_.is_flat(new2, b, a, q))) return true;
     // faces (p, q, b) and (q, p, a) with outer edges hn hp and tn tp become (a, b, p) and (b, a, q) with hp tn and tp hn
     const Index hn = Mesh_view::next(h), hp = Mesh_view::previous(h), tn = Mesh_view::next(t), tp = Mesh_view::previous(t);
     const double fold = (std::min)({fold_across(hn, new2), fold_across(hp, new1), fold_across(tn, new1),

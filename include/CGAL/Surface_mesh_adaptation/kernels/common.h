@@ -19,10 +19,6 @@ namespace Surface_mesh_adaptation {
 /// A bit for each kernel in `Adapted_surface::active`: whether it has to look at the vertex again.
 enum class Activity : std::uint8_t { simplify = 1, swap = 2, relocate = 4 };
 
-/// Least cosine between a face and the surface normals at its corners that an operation may create, unless one of the
-/// faces it replaces was worse: 60 degrees.
-constexpr double min_alignment = 0.5;
-
 /// Least cosine between two faces at a smooth edge that an operation may create, unless it mends a sharper one.
 constexpr double min_fold = 0.0;
 
