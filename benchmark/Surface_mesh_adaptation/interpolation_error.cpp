@@ -60,6 +60,7 @@ SMA::Adaptation_report adapt_to_samples(Mesh& mesh, const Field& u, std::size_t 
     values[v] = u(Vector_3(p.x(), p.y(), p.z()));
   }
   SMA::Solution_metric_field<Scalar_map> field(values, vertices);
+  field.gradation = 2.5; // the error asks for sizes that grow fast beside fronts
   field.anisotropic = anisotropic;
   return SMA::adapt_surface_mesh(mesh, field);
 }

@@ -82,7 +82,7 @@ struct Solution_metric_field
   double hmin = 0;             ///< smallest size; 0: 1e-6 diagonals of the bounding box
   double hmax = 0;             ///< largest size; 0: the diagonal
   bool anisotropic = false;    ///< keep the directions; else the smaller of the two sizes counts in all
-  double gradation = 2.5;      ///< largest ratio of the sizes at two points one size apart; the error asks for steep ones
+  double gradation = default_gradation;            ///< largest ratio of the sizes at two points one size apart
   double max_anisotropy = default_max_anisotropy;  ///< largest ratio of the two sizes at a point
 
   Solution_metric_field(VertexScalarMap values_, std::size_t vertices_) : values(std::move(values_)), vertices(vertices_)
