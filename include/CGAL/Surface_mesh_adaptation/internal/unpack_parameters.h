@@ -8,7 +8,7 @@
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/parameters.h>
 
-#include <CGAL/boost/graph/properties.h>
+#include <CGAL/boost/graph/named_params_helper.h>
 #include <CGAL/number_type_config.h>
 
 #include <boost/property_map/property_map.hpp>
