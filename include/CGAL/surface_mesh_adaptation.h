@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
 #include <CGAL/Surface_mesh_adaptation/attribute_transfer.h>
+#include <CGAL/Surface_mesh_adaptation/estimate_vertex_jets.h>
 #include <CGAL/Surface_mesh_adaptation/exponential_map.h>
 #include <CGAL/Surface_mesh_adaptation/feature_normals.h>
 #include <CGAL/Surface_mesh_adaptation/minimize_worst.h>

@@ -107,6 +107,27 @@ public:
     }
   }
 
+  /// The normal and the shape operator at `l`, on curves those of one side: at vertices of the input what is given or
+  /// estimated there. In between the normal is that of the patch, and the shape operator the mean of two, that of the
+  /// patch and the one interpolated between the corners. Measured: over many runs the errors of the two nearly cancel,
+  /// while with the latter alone it fades, and with the former alone the largest error is up to 3 times larger; where it
+  /// is far off, as in needles, it does not count.
+  internal::Jet jet(const Location& l) const
+  {
+    const Interpolation at = interpolation(l);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (at.weights[i] == 1) return given_.at(at.vertices[i], jet_at(mesh.outgoing[at.vertices[i]]));
+    if (l.kind == Vertex_class::curve) return jet(location_beside(l));
+    const std::array<internal::Jet, 3> corners{jet_at(3 * l.cell), jet_at(3 * l.cell + 1), jet_at(3 * l.cell + 2)};
+    const Vector_3 normal = evaluate(l).normal;
+    internal::Jet mean = internal::mean_jet(corners, at.weights, normal.norm() > 0 ? normal : corners[0].normal);
+    const Matrix_3 interpolated = mean.shape_operator.matrix(), of_patch = patch_shape_operator(l, mean.normal).matrix();
+    constexpr double largest_change = 0.5;
+    if ((of_patch - interpolated).norm() <= largest_change * interpolated.norm())
+      mean.shape_operator = Metric_tensor_3(Matrix_3((interpolated + of_patch) / 2));
+    return mean;
+  }
+
   /// The point of the input mesh itself, without its patches, at `l`.
   Vector_3 flat_point(const Location& l) const
   {
@@ -263,6 +284,39 @@ private:
     return jets_.at(normals.of_corner[h], [&] {
       return internal::estimate_jet(mesh, points, features, normals, given_, h);
     });
+  }
+
+  /// The same place on a curve, as one of a face beside it.
+  Location location_beside(const Location& l) const
+  {
+    const Interpolation at = interpolation(l);
+    Index h = mesh.halfedge(at.vertices[0], at.vertices[1]);
+    double t = at.weights[1]; // along `h`
+    if (h == no_index) {
+      h = mesh.halfedge(at.vertices[1], at.vertices[0]);
+      t = at.weights[0];
+    }
+    std::array<double, 3> weights{};
+    weights[h % 3] = 1 - t;
+    weights[(h + 1) % 3] = t;
+    return {Vertex_class::smooth, Mesh_view::face(h), weights[1], weights[2]};
+  }
+
+  /// The shape operator of the patch at `l`, where it has the normal `normal`, from a small triangle around.
+  Metric_tensor_3 patch_shape_operator(const Location& l, const Vector_3& normal) const
+  {
+    constexpr double size = 1e-3; // of that of the face: what is left is of that order, rounding far below
+    const auto& patch = prepared_patch(l.cell);
+    std::array<Vector_3, 3> points_around, normals_around;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Surface_point p =
+        patch.evaluate((1 - size) * l.u + (i == 1 ? size : 0), (1 - size) * l.v + (i == 2 ? size : 0));
+      points_around[i] = p.position;
+      normals_around[i] = p.normal;
+    }
+    const Vector_3 across = (points_around[1] - points_around[0]).cross(points_around[2] - points_around[0]);
+    return rotated(internal::shape_operator_of_face(points_around, normals_around),
+                   minimal_rotation(across.normalized(), normal));
   }
 
   static constexpr int max_crossings = 256; // a path this long means a metric far coarser than the reference

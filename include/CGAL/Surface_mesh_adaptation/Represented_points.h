@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The points of the reference that the faces of a simplified mesh stand for: of each face of the input its corners and
-// its centroid. A collapse hands the points of the faces that it changes on to the new ones. So what is known of
-// distances and normals is measured, however many collapses there were.
+// The points of the reference that the faces of a simplified mesh stand for: of each face of the input its corners, its
+// centroid and a point towards each corner. A collapse hands the points of the faces that it changes on to the new ones.
+// So what is known of distances and normals is measured, however many collapses there were.
 //
 // Each face has a list of its points, linked through them. Points at features are there once for each side and stay
 // with it: a face of another side may be nearer and yet say nothing about theirs.
@@ -54,9 +54,9 @@ public:
       for_each_listed_corner(Index(f), [&](Index, double, double) { ++count; });
       return count;
     });
-    next_.resize(n + corners);
-    points_.resize(n + corners);
-    weights_.resize(n + corners);
+    next_.resize(n + corners + 3 * n);
+    points_.resize(next_.size());
+    weights_.resize(next_.size());
     for_each_index(execution, n, [&](std::size_t f) {
       normals_[f] = surface_.normal(Index(3 * f));
       first_[f] = no_index;
@@ -64,7 +64,11 @@ public:
       for_each_listed_corner(Index(f), [&](Index h, double u, double v) {
         add(i++, Index(f), u, v, weight_of_corner * area_of_side(h));
       });
-      add(Index(f), Index(f), 1.0 / 3, 1.0 / 3, weight_of_centroid * area(Index(3 * f)));
+      const double face_area = area(Index(3 * f));
+      add(Index(f), Index(f), 1.0 / 3, 1.0 / 3, weight_of_centroid * face_area);
+      for (Index k = 0; k < 3; ++k)
+        add(Index(n + corners + 3 * f) + k, Index(f), k == 1 ? 2.0 / 3 : 1.0 / 6, k == 2 ? 2.0 / 3 : 1.0 / 6,
+            weight_of_inner_point * face_area);
     }, heavy_chunk_length);
   }
 
@@ -142,7 +146,8 @@ public:
 
 private:
   static constexpr double none = std::numeric_limits<double>::infinity();
-  static constexpr double weight_of_corner = 1.0 / 12, weight_of_centroid = 3.0 / 4; // exact for quadratic functions
+  // exact for quadratic functions
+  static constexpr double weight_of_corner = 1.0 / 40, weight_of_centroid = 9.0 / 40, weight_of_inner_point = 7.0 / 30;
 
   /// A face as it will be.
   struct New_face : internal::Prepared_triangle

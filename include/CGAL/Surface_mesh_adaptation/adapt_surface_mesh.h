@@ -90,14 +90,16 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNBegin{vertex_normal_map}
     \cgalParamDescription{the outer normals of the surface at all vertices, of any length but 0; not used at sharp
                           features and boundaries}
-    \cgalParamType{a `ReadablePropertyMap` with the vertex descriptor as key and `Vector_3` as value}
-    \cgalParamDefault{estimated from the points, see `estimate_jets()`}
+    \cgalParamType{a `ReadablePropertyMap` with the vertex descriptor as key and `Vector_3` as value; if writable, the
+                   normals at the vertices of the result are left in it, for the next run}
+    \cgalParamDefault{estimated from the points, see `estimate_vertex_jets()`}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_shape_operator_map}
     \cgalParamDescription{the derivatives of the normal along the surface at all vertices: on a sphere of radius r,
-                          `(I - n n^T) / r`; not used at sharp features and boundaries}
-    \cgalParamType{a `ReadablePropertyMap` with the vertex descriptor as key and `Metric_tensor_3` as value}
-    \cgalParamDefault{estimated from the points, see `estimate_jets()`}
+                          `(I - n n^T) / r`; zero where it is not known; not used at sharp features and boundaries}
+    \cgalParamType{a `ReadablePropertyMap` with the vertex descriptor as key and `Metric_tensor_3` as value; if
+                   writable, that of the result is left in it}
+    \cgalParamDefault{estimated from the points, see `estimate_vertex_jets()`}
   \cgalParamNEnd
   \cgalParamNBegin{output_metric_map}
     \cgalParamDescription{where the metric at the vertices of the result is written}

@@ -36,7 +36,7 @@ Collapses the edges that are shorter than `1/sqrt 2` in the metric where that ma
 keeps the features (paper, section 5).
 
 With a limit on the normals or on the distance, the collapses that cost least by quadric errors go first, each to the
-place that is best by these, and go on until the limits allow no more, or until that on the normals holds a fifth of the
+place that is best by these, and go on until the limits allow no more, or until that on the normals holds an eighth of the
 vertices: to go on would save few others, at an error that grows ever faster. In the end the vertices, but for corners,
 are fitted to the surface, so that the faces run through it instead of touching it from one side. A large size in
 `field` leaves everything to the limits. These are kept at the points that they name. A `tolerance` is a limit on the
@@ -53,7 +53,7 @@ distance, too, and is certified in the end for the whole surface, with stricter 
     \cgalParamDefault{no limit}
   \cgalParamNEnd
   \cgalParamNBegin{maximum_distance}
-    \cgalParamDescription{the largest distance between the surface, at the vertices and the centroids of the faces of
+    \cgalParamDescription{the largest distance between the surface, at the vertices and at four points in each face of
                           the input, and the faces that stand for these}
     \cgalParamType{`double`, in the unit of the coordinates, positive}
     \cgalParamDefault{no limit}

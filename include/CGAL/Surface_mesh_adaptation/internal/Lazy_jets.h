@@ -11,8 +11,10 @@
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/feature_normals.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Facet_normals.h>
+#include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_jets.h>
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -29,11 +31,39 @@ struct Jet
   bool has_shape_operator;
 };
 
+/// With the normal `normal` the mean shape operator of those of `jets` that have one, each turned with its normal.
+inline Jet mean_jet(const std::array<Jet, 3>& jets, const std::array<double, 3>& weights, const Vector_3& normal)
+{
+  Jet mean{normal, Metric_tensor_3(0, 0, 0, 0, 0, 0), false};
+  double known = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!jets[i].has_shape_operator) continue;
+    mean.shape_operator += weights[i] * rotated(jets[i].shape_operator, minimal_rotation(jets[i].normal, normal));
+    known += weights[i];
+  }
+  mean.has_shape_operator = known > 0;
+  if (known > 0) mean.shape_operator = 1 / known * mean.shape_operator;
+  return mean;
+}
+
 /// What the user knows of the surface at the vertices of the input: empty, or one for each vertex.
 struct Given_jets
 {
   std::vector<Vector_3> normals;                 ///< unit
-  std::vector<Metric_tensor_3> shape_operators;
+  std::vector<Metric_tensor_3> shape_operators;  ///< zero where it is not known
+
+  /// `jet` with what is given at `v`.
+  Jet at(Index v, Jet jet) const
+  {
+    if (!normals.empty()) jet.normal = normals[v];
+    if (!shape_operators.empty()) {
+      jet.shape_operator = shape_operators[v];
+      jet.has_shape_operator = !(jet.shape_operator == Metric_tensor_3(0, 0, 0, 0, 0, 0));
+    }
+    return jet;
+  }
+
+  bool is_complete() const { return !normals.empty() && !shape_operators.empty(); }
 };
 
 class Lazy_jets
@@ -88,6 +118,8 @@ inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& poin
 {
   const Index v = mesh.source(h), sector = normals.of_corner[h];
   Jet jet{normals.normals[sector], Metric_tensor_3(0, 0, 0, 0, 0, 0), false};
+  const bool is_smooth = features.vertex_class[v] == Vertex_class::smooth;
+  if (is_smooth && given.is_complete()) return given.at(v, jet);
   for_each_sector(mesh, v, [&](Index first, std::size_t n) {
     if (normals.of_corner[first] != sector) return;
     Jet_of_sector fit{jet.normal, jet.shape_operator};
@@ -97,13 +129,7 @@ inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& poin
       jet.normal = mean_normal(mesh, points, first, n, jet.normal);
     jet.normal = normal_on_features(mesh, features, first, n, jet.normal);
   });
-  if (features.vertex_class[v] != Vertex_class::smooth) return jet;
-  if (!given.normals.empty()) jet.normal = given.normals[v];
-  if (!given.shape_operators.empty()) {
-    jet.shape_operator = given.shape_operators[v];
-    jet.has_shape_operator = true;
-  }
-  return jet;
+  return is_smooth ? given.at(v, jet) : jet;
 }
 
 } // namespace internal

@@ -12,17 +12,13 @@
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/face_graph.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Any_execution.h>
+#include <CGAL/Surface_mesh_adaptation/internal/carried_jets.h>
+#include <CGAL/Surface_mesh_adaptation/internal/unpack_parameters.h>
 #include <CGAL/Surface_mesh_adaptation/locality.h>
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
 #include <CGAL/Surface_mesh_adaptation/parameters.h>
 
-#include <CGAL/number_type_config.h>
-
-#include <CGAL/number_utils.h>
-
 #include <algorithm>
-#include <cmath>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -37,46 +33,6 @@ namespace Surface_mesh_adaptation {
 constexpr unsigned default_number_of_rounds = 8;
 
 namespace internal {
-
-template <class T> T& unwrap(T& t) { return t; }
-template <class T> T& unwrap(std::reference_wrapper<T>& r) { return r.get(); }
-
-/// The value of a named parameter, or a default.
-template <class NamedParameters, class Tag, class Default>
-auto choose(const NamedParameters& np, Tag tag, const Default& by_default)
-{
-  return CGAL::parameters::choose_parameter(CGAL::parameters::get_parameter(np, tag), by_default);
-}
-
-template <class NamedParameters, class Tag>
-constexpr bool has_parameter =
-  !std::is_same_v<std::decay_t<decltype(CGAL::parameters::get_parameter(std::declval<NamedParameters>(), Tag()))>,
-                  CGAL::internal_np::Param_not_found>;
-
-/// The cosine of the parameter `maximum_normal_deviation`, or `by_default`.
-/// \throws Invalid_parameter_error
-template <class NamedParameters>
-double cosine_of_normal_deviation(const NamedParameters& np, double by_default)
-{
-  if constexpr (has_parameter<NamedParameters, internal_np::maximum_normal_deviation_t>) {
-    const double degrees = CGAL::parameters::get_parameter(np, internal_np::maximum_normal_deviation);
-    if (!(degrees > 0 && degrees <= 180))
-      throw Invalid_parameter_error("the normal deviation must lie between 0 and 180 degrees");
-    return std::cos(degrees * CGAL_PI / 180);
-  }
-  return by_default;
-}
-
-template <class FaceGraph, class NamedParameters>
-auto point_map(FaceGraph& graph, const NamedParameters& np)
-{
-  return CGAL::parameters::choose_parameter(
-    CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point),
-    CGAL::get_property_map(CGAL::vertex_point, graph));
-}
-
-template <class Category>
-constexpr bool is_writable = std::is_convertible_v<Category, boost::writable_property_map_tag>;
 
 /// Feature detection parameters from the named parameters, with the constraints read from the user's maps.
 template <class FaceGraph, class NamedParameters>
@@ -104,27 +60,23 @@ template <class FaceGraph, class Surface, class NamedParameters>
 void write_constraints(FaceGraph& graph, const Surface& surface, const Feature_parameters& features,
                        const NamedParameters& np)
 {
-  if constexpr (has_parameter<NamedParameters, CGAL::internal_np::vertex_is_constrained_t>) {
+  if constexpr (has_writable_map<NamedParameters, CGAL::internal_np::vertex_is_constrained_t>()) {
     auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_is_constrained);
-    if constexpr (is_writable<typename boost::property_traits<std::decay_t<decltype(map)>>::category>) {
-      std::size_t i = 0;
-      for (const auto v : vertices(graph)) {
-        const Index o = surface.origin[i++];
-        put(map, v, o != no_index && features.vertex_is_constrained[o] != 0);
-      }
+    std::size_t i = 0;
+    for (const auto v : vertices(graph)) {
+      const Index o = surface.origin[i++];
+      put(map, v, o != no_index && features.vertex_is_constrained[o] != 0);
     }
   }
-  if constexpr (has_parameter<NamedParameters, CGAL::internal_np::edge_is_constrained_t>) {
+  if constexpr (has_writable_map<NamedParameters, CGAL::internal_np::edge_is_constrained_t>()) {
     auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained);
-    if constexpr (is_writable<typename boost::property_traits<std::decay_t<decltype(map)>>::category>) {
-      for (const auto e : edges(graph)) put(map, e, false);
-      std::size_t h = 0;
-      for (const auto f : faces(graph))
-        for (const auto g : CGAL::halfedges_around_face(halfedge(f, graph), graph)) {
-          if (surface.mesh.is_feature(Index(h))) put(map, edge(g, graph), true);
-          ++h;
-        }
-    }
+    for (const auto e : edges(graph)) put(map, e, false);
+    std::size_t h = 0;
+    for (const auto f : faces(graph))
+      for (const auto g : CGAL::halfedges_around_face(halfedge(f, graph), graph)) {
+        if (surface.mesh.is_feature(Index(h))) put(map, edge(g, graph), true);
+        ++h;
+      }
   }
 }
 
@@ -136,32 +88,6 @@ void write_metric(FaceGraph& graph, const Surface& surface, const NamedParameter
     std::size_t i = 0;
     for (const auto v : vertices(graph)) put(map, v, surface.metrics[i++].tensor());
   }
-}
-
-/// The normals and shape operators that the parameters give.
-/// \throws Invalid_normal_error
-template <class FaceGraph, class NamedParameters>
-Given_jets given_jets(const Imported_mesh<FaceGraph>& imported, const NamedParameters& np)
-{
-  Given_jets given;
-  if constexpr (has_parameter<NamedParameters, CGAL::internal_np::vertex_normal_map_t>) {
-    const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_normal_map);
-    for (const auto v : imported.vertices) {
-      const auto& n = get(map, v);
-      const Vector_3 normal(CGAL::to_double(n.x()), CGAL::to_double(n.y()), CGAL::to_double(n.z()));
-      if (!(normal.norm() > 0 && normal.allFinite())) throw Invalid_normal_error(given.normals.size());
-      given.normals.push_back(normal.normalized());
-    }
-  }
-  if constexpr (has_parameter<NamedParameters, internal_np::vertex_shape_operator_map_t>) {
-    const auto map = CGAL::parameters::get_parameter(np, internal_np::vertex_shape_operator_map);
-    for (const auto v : imported.vertices) {
-      given.shape_operators.push_back(get(map, v));
-      if (!given.shape_operators.back().matrix().allFinite())
-        throw Invalid_normal_error(given.shape_operators.size() - 1);
-    }
-  }
-  return given;
 }
 
 /// Calls `use()`; an error in the metric or field at a vertex is reported with the place of that vertex in `graph`, not
@@ -264,10 +190,14 @@ Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& grap
     report = asked ? adapt_within(*tolerance, run) : run();
     Surface& surface = *adapted;
     auto attributes = attribute_transfer(graph, imported, choose(np, internal_np::vertex_attribute_maps, std::tuple<>()));
+    const Carried_jets<NamedParameters> jets(execution, reference, surface.locations.size(), [&](std::size_t v) {
+      return surface.locations[v];
+    }, np);
     write_connectivity(execution, surface.mesh, graph);
     write_points(execution, surface.points, graph, points);
     write_constraints(graph, surface, features, np);
     write_metric(graph, surface, np);
+    jets.write(graph);
     attributes.write(graph, surface);
     surface.release(execution);
   };

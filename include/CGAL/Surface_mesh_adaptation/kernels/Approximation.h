@@ -63,8 +63,8 @@ private:
 
   static constexpr double growth = 1.2;            // of the bound
   static constexpr double noticeable_share = 0.3;  // of the vertices: removed since the last fit
-  static constexpr double max_share_of_held = 0.2; // of the vertices, by the limit on the normals
-  static constexpr int last_steps = 12;
+  static constexpr double max_share_of_held = 0.125; // of the vertices, by the limit on the normals
+  static constexpr int last_steps = 8;
 
   Represented_points<Surface> represented_;
   Contraction<Surface, Execution> contraction_;

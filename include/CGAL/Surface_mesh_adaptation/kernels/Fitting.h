@@ -131,7 +131,7 @@ private:
     return surface_.normal(3 * f).dot(old) < min_turn * old.norm() || !represented_.are_within_limits(f, max_distance_);
   }
 
-  static constexpr double attraction = 0.1; // of a vertex to where it is, of that to the points
+  static constexpr double attraction = 0.05; // of a vertex to where it is, of that to the points
   static constexpr double share_of_largest = 0.95; // faces that reach it stay: the largest distance does not grow
   static constexpr double max_move = 0.5;   // of a vertex, in largest distances
   static constexpr double damping = 0.8;    // the block Jacobi iteration has eigenvalues from 1/2 to 2
