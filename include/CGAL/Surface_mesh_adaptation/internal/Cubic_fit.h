@@ -10,7 +10,6 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <utility>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -34,9 +33,12 @@ public:
 
   void add(double x, double y, double value, double weight)
   {
-    const Row row = monomials(x, y), weighted = weight * row;
-    right_hand_side_ += value * weighted;
-    add_columns(row, weighted, std::make_index_sequence<size>());
+    const Row row = monomials(x, y);
+    for (int j = 0; j < size; ++j) {
+      const double wj = weight * row[j];
+      right_hand_side_[j] += wj * value;
+      for (int i = j; i < size; ++i) matrix_(i, j) += wj * row[i];
+    }
     ++samples_;
   }
 
@@ -87,23 +89,15 @@ public:
   bool solve_quadratic(Derivatives_2& result) const { return Solver<5>(*this).solve(result); }
 
 private:
-  static constexpr int size = 9, padded_size = 10; // even, for instructions that do two sums at once
-  using Matrix = Eigen::Matrix<double, padded_size, size>;
-  using Row = Eigen::Matrix<double, padded_size, 1>;
+  static constexpr int size = 9;
+  using Matrix = Eigen::Matrix<double, size, size>;
+  using Row = Eigen::Matrix<double, size, 1>;
 
   static Row monomials(double x, double y)
   {
     Row row;
-    row << x, y, x * x / 2, x * y, y * y / 2, x * x * x, x * x * y, x * y * y, y * y * y, 0;
+    row << x, y, x * x / 2, x * y, y * y / 2, x * x * x, x * x * y, x * y * y, y * y * y;
     return row;
-  }
-
-  /// Adds to each column `j` from the diagonal on, or from above it where that leaves an even number of rows.
-  template <std::size_t... j>
-  void add_columns(const Row& row, const Row& weighted, std::index_sequence<j...>)
-  {
-    ((matrix_.col(j).template tail<padded_size - int(j & ~std::size_t(1))>() +=
-      weighted[j] * row.template tail<padded_size - int(j & ~std::size_t(1))>()), ...);
   }
 
   /// The least sine of the angle between a column of the problem and the span of those before it.
@@ -111,7 +105,7 @@ private:
   /// The least length of a column over the longest: where all samples lie on two lines, the mixed one is but rounding.
   static constexpr double least_column = 1e-6;
 
-  Matrix matrix_; // its lower triangle counts
+  Matrix matrix_; // its lower triangle
   Row right_hand_side_;
   std::size_t samples_ = 0;
 };
