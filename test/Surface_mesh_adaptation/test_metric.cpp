@@ -56,6 +56,8 @@ TEST(Metric_tensor, has_the_eigenvalues_and_vectors_it_was_made_of)
     EXPECT_LT((e.values - values).norm(), 1e-12 * values[2]);
     EXPECT_LT((e.vectors.transpose() * e.vectors - Matrix_3::Identity()).norm(), 1e-12);
     EXPECT_LT((m.matrix() * e.vectors - e.vectors * e.values.asDiagonal()).norm(), 1e-12 * values[2]);
+    EXPECT_NEAR(SMA::second_invariant(m), values[0] * values[1] + values[0] * values[2] + values[1] * values[2],
+                1e-12 * values[2] * values[2]);
     EXPECT_TRUE(SMA::is_positive_definite(m));
     EXPECT_FALSE(SMA::is_positive_definite(SMA::metric_tensor(Vector_3(-values[0], values[1], values[2]), r)));
   }

@@ -179,8 +179,7 @@ private:
   /// that leaves cylinders, which are as good as planes, as they are.
   static double mid_edge_stretch(const Patch& p, std::size_t i, std::size_t j)
   {
-    const Metric_tensor_3 s = p.shape_operators[i] + p.shape_operators[j]; // twice the mean
-    const double curvature = ((s[0] * s[2] - s[1] * s[1]) + (s[0] * s[5] - s[3] * s[3]) + (s[2] * s[5] - s[4] * s[4])) / 4;
+    const double curvature = second_invariant(p.shape_operators[i] + p.shape_operators[j]) / 4; // of their mean
     const double turn = curvature * (p.points[j] - p.points[i]).squaredNorm();
     return 1 + std::clamp(turn, -1.0, 1.0) / 16; // beyond, shape operators are noise
   }

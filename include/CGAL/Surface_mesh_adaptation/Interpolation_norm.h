@@ -73,9 +73,7 @@ inline Metric_tensor_3 multiscale_tensor(const Metric_tensor_3& hessian, const I
   const Vector_3 values = eigen_decomposition(m).values;
   const double determinant = values[1] * values[2];
   if (!(values[1] > 0)) return Metric_tensor_3(0, 0, 0, 0, 0, 0);
-  const Matrix_3 h = hessian.matrix();
-  const double product = (h.trace() * h.trace() - h.squaredNorm()) / 2; // of the two eigenvalues across the normal
-  const double c = norm.relative_error(std::clamp(product / determinant, -1.0, 1.0));
+  const double c = norm.relative_error(std::clamp(second_invariant(hessian) / determinant, -1.0, 1.0));
   return c * std::pow(c * c * determinant, -1 / (2 * norm.exponent() + 2)) * m;
 }
 

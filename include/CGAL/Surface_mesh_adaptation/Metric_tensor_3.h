@@ -112,6 +112,13 @@ inline Metric_tensor_3 metric_tensor(const Vector_3& values, const Matrix_3& vec
   return Metric_tensor_3(Matrix_3(vectors * values.asDiagonal() * vectors.transpose()));
 }
 
+/// The sum of the products of two eigenvalues each: their product in the tangent plane where the third one is zero, as
+/// that of shape operators and Hessians of a surface, the Gauss curvature for the former.
+inline double second_invariant(const Metric_tensor_3& m)
+{
+  return (m[0] * m[2] - m[1] * m[1]) + (m[0] * m[5] - m[3] * m[3]) + (m[2] * m[5] - m[4] * m[4]);
+}
+
 /// Whether `m` is finite and positive definite.
 inline bool is_positive_definite(const Metric_tensor_3& m)
 {
