@@ -107,7 +107,7 @@ public:
   Features run(const Execution& execution)
   {
     mark_feature_edges(execution);
-    unmark_slivers(execution);
+    if (parameters_.detect_ridges) unmark_slivers(execution);
     // what follows is sequential, but only along the features
     feature_vertices_ = pack(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
       return feature_degree(Index(v)) > 0;
@@ -183,17 +183,16 @@ private:
   {
     const Index h = 3 * f;
     if (is_feature_[h] != ridge || is_feature_[h + 1] != ridge || is_feature_[h + 2] != ridge) return false;
-    const Index longest = longest_edge(f);
-    const double squared_length = (points_[mesh_.target(longest)] - points_[mesh_.source(longest)]).squaredNorm();
-    return normal(f).norm() < sliver_height * squared_length;
+    return normal(f).norm() < sliver_height * squared_length(longest_edge(f));
   }
 
   Index longest_edge(Index f) const
   {
-    const auto squared_length = [&](Index h) { return (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm(); };
     const Index h = 3 * f;
     return (std::max)({h, h + 1, h + 2}, [&](Index a, Index b) { return squared_length(a) < squared_length(b); });
   }
+
+  double squared_length(Index h) const { return (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm(); }
 
   void set_mark(Index h, Mark mark) { is_feature_[h] = is_feature_[mesh_.twin[h]] = mark; }
 
