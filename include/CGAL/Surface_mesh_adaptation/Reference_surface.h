@@ -117,7 +117,7 @@ public:
     const Interpolation at = interpolation(l);
     for (std::size_t i = 0; i < 3; ++i)
       if (at.weights[i] == 1) return given_.at(at.vertices[i], jet_at(mesh.outgoing[at.vertices[i]]));
-    if (l.kind == Vertex_class::curve) return jet(location_beside(l));
+    if (l.kind == Vertex_class::curve) return jet(location_beside(at));
     const std::array<internal::Jet, 3> corners{jet_at(3 * l.cell), jet_at(3 * l.cell + 1), jet_at(3 * l.cell + 2)};
     const Vector_3 normal = evaluate(l).normal;
     internal::Jet mean = internal::mean_jet(corners, at.weights, normal.norm() > 0 ? normal : corners[0].normal);
@@ -286,10 +286,9 @@ private:
     });
   }
 
-  /// The same place on a curve, as one of a face beside it.
-  Location location_beside(const Location& l) const
+  /// A place on a curve as one of a face beside it.
+  Location location_beside(const Interpolation& at) const
   {
-    const Interpolation at = interpolation(l);
     Index h = mesh.halfedge(at.vertices[0], at.vertices[1]);
     double t = at.weights[1]; // along `h`
     if (h == no_index) {
