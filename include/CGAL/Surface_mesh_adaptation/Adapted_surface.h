@@ -15,6 +15,7 @@
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -40,6 +41,22 @@ inline bool is_thin(const Vector_3& e1, const Vector_3& e2, const Vector_3& n)
   const double longest = (std::max)({e1.squaredNorm(), e2.squaredNorm(), (e2 - e1).squaredNorm()});
   return n.squaredNorm() < max_thin_height * max_thin_height * longest * longest;
 }
+
+/// How a face with the normal `n`, as long as `length`, stands to the surface normals at its corners, of which those of
+/// corners on curves are zero.
+struct Corner_products
+{
+  double least;          ///< product of `n` with one of them, or `length`
+  bool is_smooth = true; ///< whether none is zero
+
+  Corner_products(const Vector_3& n, double length, const std::array<const Vector_3*, 3>& normals) : least(length)
+  {
+    for (const Vector_3* m : normals) {
+      if (*m == Vector_3::Zero()) is_smooth = false;
+      else least = (std::min)(least, n.dot(*m));
+    }
+  }
+};
 
 /// The least cosine between a thin face and the surface normals at its corners, as it counts among those of others:
 /// from `limit_of_thin` on not less than their `limit`.

@@ -294,20 +294,14 @@ private:
   bool is_child_upright(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels,
                         const Vector_3& parent, double limit) const
   {
-    std::array<Vector_3, 3> p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = points_[plan.vertex_of_label(f, labels[i])];
-    const Vector_3 e1 = p[1] - p[0], e2 = p[2] - p[0], normal = e1.cross(e2);
+    std::array<Index, 3> v;
+    for (std::size_t i = 0; i < 3; ++i) v[i] = plan.vertex_of_label(f, labels[i]);
+    const Vector_3 e1 = points_[v[1]] - points_[v[0]], e2 = points_[v[2]] - points_[v[0]], normal = e1.cross(e2);
     const double length = normal.norm();
-    double least = length;
-    bool is_smooth = true;
-    for (const std::uint8_t label : labels) {
-      const Vector_3& n = normals_[plan.vertex_of_label(f, label)];
-      if (n == Vector_3::Zero()) is_smooth = false;
-      else least = (std::min)(least, normal.dot(n));
-    }
-    if (normal.dot(parent) > min_turn * length && least >= limit * length) return true;
-    return is_anisotropic<Metric> && is_smooth && length > 0 && is_thin(e1, e2, normal) &&
-           alignment_of_thin_face(least / length) >= limit;
+    const Corner_products products(normal, length, {&normals_[v[0]], &normals_[v[1]], &normals_[v[2]]});
+    if (normal.dot(parent) > min_turn * length && products.least >= limit * length) return true;
+    return is_anisotropic<Metric> && products.is_smooth && length > 0 && is_thin(e1, e2, normal) &&
+           alignment_of_thin_face(products.least / length) >= limit;
   }
 
   bool child_keeps_tolerance(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels) const

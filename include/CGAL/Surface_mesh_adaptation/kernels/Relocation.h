@@ -216,13 +216,9 @@ private:
       const double length = n.norm();
       const double q = internal::squared_shape(v.metric, a.metric, b.metric, ea, eb, n).quality();
       s.worst = (std::min)(s.worst, q);
-      double least = length;
-      bool is_smooth = true;
-      for (const Vector_3* m : {&v.normal, &a.normal, &b.normal})
-        if (*m != Vector_3::Zero()) least = (std::min)(least, n.dot(*m));
-        else is_smooth = false;
-      double alignment = length > 0 ? least / length : -1;
-      if (is_anisotropic<Metric> && is_smooth && is_thin(ea, eb, n))
+      const Corner_products products(n, length, {&v.normal, &a.normal, &b.normal});
+      double alignment = length > 0 ? products.least / length : -1;
+      if (is_anisotropic<Metric> && products.is_smooth && is_thin(ea, eb, n))
         alignment = alignment_of_thin_face(alignment, thresholds_.least_alignment,
                                            thresholds_.least_alignment_of_thin_faces);
       s.alignment = (std::min)(s.alignment, alignment);
