@@ -36,6 +36,13 @@ struct Deviation_limits
 /// Which limit is exceeded.
 enum class Excess { none, distance, normal };
 
+/// How far faces are from what they stand for.
+struct Deviation
+{
+  Excess excess = Excess::none;
+  double squared_distance = 0; ///< the largest of a point, where no limit is exceeded
+};
+
 template <class Surface>
 class Represented_points
 {
@@ -72,19 +79,21 @@ public:
     }, heavy_chunk_length);
   }
 
-  /// Which limit the points of the faces of `star` exceed if its edge is collapsed and the vertex that is kept comes to
-  /// be at `p`.
-  Excess excess(const Merged_star& star, const Vector_3& p) const
+  /// That of the faces of `star` if its edge is collapsed and the vertex that is kept comes to be at `p`.
+  Deviation deviation(const Merged_star& star, const Vector_3& p) const
   {
     const New_faces faces = new_faces(star, p);
     std::size_t hint = 0;
+    Deviation d;
     for (const Merged_star::Face& old : star.faces())
       for (Index i = first_[Mesh_view::face(old.halfedge)]; i != no_index; i = next_[i]) {
         const auto nearest = faces.nearest(points_[i], old.side, hint);
-        if (nearest.first == nullptr || nearest.second > limits_.distance * limits_.distance) return Excess::distance;
-        if (!is_normal_within_limits(i, nearest.first->normal())) return Excess::normal;
+        if (nearest.first == nullptr || nearest.second > limits_.distance * limits_.distance)
+          return {Excess::distance};
+        if (!is_normal_within_limits(i, nearest.first->normal())) return {Excess::normal};
+        d.squared_distance = (std::max)(d.squared_distance, nearest.second);
       }
-    return Excess::none;
+    return d;
   }
 
   /// Whether a vertex may be that far from the surface.

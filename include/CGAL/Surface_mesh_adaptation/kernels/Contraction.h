@@ -3,6 +3,8 @@
 // Contraction: merges the ends of edges where quadrics say that it costs least, each pair at the point that is best by
 // the quadrics (M. Garland, P. Heckbert, *Surface simplification using quadric error metrics*, 1997), and where the
 // points that the faces stand for stay within limits. The cost is bounded, and the bound rises from sweep to sweep.
+// Quadrics are sums over areas, so a place that errs much more than others may cost as little where it is small: the
+// largest distance has a cost, too.
 //
 // What a collapse costs hardly ever falls while its surroundings are simplified. Hence a vertex is looked at again only
 // when the bound reaches what its cheapest collapse cost the last time, or, if none was allowed then, when something
@@ -29,6 +31,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -50,10 +53,20 @@ public:
     for_each_index(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
       quadrics_[v] = quadric_of_star(Index(v));
     }, heavy_chunk_length);
+    area_ = reduce(execution, mesh_.number_of_vertices(), 0.0, [&](std::size_t v) { return quadrics_[v].area(); },
+                   std::plus<double>());
+    set_bound(0);
   }
 
   /// Collapses that cost more wait.
-  void set_bound(double cost) { bound_ = cost; }
+  void set_bound(double cost)
+  {
+    bound_ = cost;
+    const std::size_t left = count_if(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
+      return !mesh_.is_removed_vertex(Index(v));
+    });
+    mean_area_ = area_ / double((std::max)(left, std::size_t(1)));
+  }
 
   /// The least cost of a collapse that waits for a higher bound, or infinity.
   double next_cost() const
@@ -105,6 +118,7 @@ private:
   static constexpr double none = std::numeric_limits<double>::infinity();
   static constexpr double precision = 0.02;   // of a location, of the length of the edge
   static constexpr std::size_t max_pieces = 1024; // of a face, which may stand for hundreds
+  static constexpr double typical_share = 0.25; // of the largest squared distance: their mean
   static constexpr double attraction = 1e-7;  // of the middle of an edge, of that of the planes
 
   /// The planes of the faces around `v` and, through feature edges, those across them.
@@ -140,21 +154,27 @@ private:
     is_held_[s] = 0;
     Ring<Collapse> collapses;
     if (surface_.vertex_class(s) != Vertex_class::corner) list_collapses(s, collapses);
+    double later = none; // the bound at which one that errs too much now may come
     for (Collapse& c : collapses) {
-      least_cost_[s] = c.cost;
+      least_cost_[s] = (std::min)(later, c.cost);
       if (c.cost > bound_) return {};
       if (!mesh_.is_collapsible(c)) continue;
       is_put_off = !is_free(mesh_.kept_vertex(c));
       if (is_put_off) return {};
       const Merged_star star(mesh_, c);
       if (!is_valid(c, star)) continue;
-      const Excess excess = represented_.excess(star, c.point);
-      if (excess == Excess::normal) is_held_[s] = 1;
-      if (excess != Excess::none) continue;
+      const Deviation deviation = represented_.deviation(star, c.point);
+      if (deviation.excess == Excess::normal) is_held_[s] = 1;
+      if (deviation.excess != Excess::none) continue;
+      const double cost = cost_of_distance(deviation.squared_distance);
+      if (cost > bound_) {
+        later = (std::min)(later, cost);
+        continue;
+      }
       c.location = location_near(s, mesh_.kept_vertex(c), c.point);
       if (represented_.is_within_distance(surface_.point(c.location) - c.point) && keeps_tolerance(c, star)) return c;
     }
-    least_cost_[s] = none;
+    least_cost_[s] = later;
     return {};
   }
 
@@ -184,6 +204,12 @@ private:
   /// Between the mean distance from the planes, by which the largest one is small, and the sum over the area, by which
   /// the mean is: `area^(3/4)` times the mean square.
   static double cost(double error, double area) { return area > 0 ? std::sqrt(error / std::sqrt(std::sqrt(area))) : 0; }
+
+  /// Of a place with the mean area that errs up to that far.
+  double cost_of_distance(double squared_distance) const
+  {
+    return cost(typical_share * squared_distance * mean_area_, mean_area_);
+  }
 
   bool is_valid(const Collapse& c, const Merged_star& star) const
   {
@@ -288,6 +314,7 @@ private:
   Buffer<std::uint8_t> is_held_; // by the limit on the normals
   Buffer<double> least_cost_; // of the collapses of each vertex, when it was last looked at
   double bound_ = 0;
+  double area_ = 0, mean_area_ = 0; // of all, and for each vertex
   Reservations reservations_;
 };
 
