@@ -19,7 +19,8 @@ namespace internal {
 /// `make(execution, surface)` returns the kernel, `sweep(kernel, counts)` the number of operations of one sweep.
 template <class Execution, class TriangleMesh, class MetricField, class NamedParameters, class Make, class Sweep>
 std::size_t run_kernel(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
-                       const NamedParameters& np, unsigned default_sweeps, const Make& make, const Sweep& sweep)
+                       const NamedParameters& np, unsigned default_sweeps, const Make& make, const Sweep& sweep,
+                       double share_of_tolerance = share_of_operations)
 {
   const std::size_t max_sweeps = choose(np, CGAL::internal_np::number_of_iterations, default_sweeps);
   Adaptation_visitor nothing;
@@ -34,7 +35,7 @@ std::size_t run_kernel(const Execution& execution, TriangleMesh& mesh, const Met
       report.stopped = !visitor.go_on();
     Refinement(policy, surface).compact();
     return report;
-  });
+  }, share_of_tolerance);
   return counts.applied;
 }
 

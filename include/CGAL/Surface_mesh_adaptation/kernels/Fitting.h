@@ -44,6 +44,8 @@ public:
     max_distance_ = share_of_largest * represented_.largest_distance(execution_);
     places_ = surface_.points;
     for (int i = 0; i < steps; ++i) step();
+    if (surface_.has_tolerance())
+      take_back(places_, [&](Index f) { return is_bad(f, places_) || !keeps_tolerance(f); });
   }
 
 private:
@@ -57,7 +59,7 @@ private:
     for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
       if (!mesh_.is_removed_vertex(Index(v)) && surface_.vertex_class(Index(v)) != Vertex_class::corner) step(Index(v));
     }, heavy_chunk_length);
-    while (take_back() > 0) {}
+    take_back(before_, [&](Index f) { return is_bad(f, before_); });
   }
 
   struct Equations
@@ -102,33 +104,46 @@ private:
     surface_.points[v] = length > longest ? Vector_3(places_[v] + longest / length * way) : Vector_3(places_[v] + way);
   }
 
-  /// Puts the corners of the faces that the last step made bad back to where they were; returns the number of these
-  /// faces.
-  std::size_t take_back()
+  /// Puts the corners of the faces that have become bad back to where they were `before`, until there are none.
+  template <class IsBad>
+  void take_back(const Buffer<Vector_3>& before, const IsBad& is_bad)
   {
     is_bad_.resize(mesh_.number_of_faces());
-    const std::size_t bad = count_if(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
-      return is_bad_[f] = !mesh_.is_removed_face(Index(f)) && is_bad(Index(f));
-    });
-    if (bad > 0)
+    while (count_if(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
+             return is_bad_[f] = !mesh_.is_removed_face(Index(f)) && has_moved(Index(f), before) && is_bad(Index(f));
+           }) > 0)
       for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
         if (!mesh_.is_removed_vertex(Index(v)))
           mesh_.for_each_outgoing(Index(v), [&](Index h) {
-            if (is_bad_[Mesh_view::face(h)] != 0) surface_.points[v] = before_[v];
+            if (is_bad_[Mesh_view::face(h)] != 0) surface_.points[v] = before[v];
           });
       });
-    return bad;
   }
 
-  bool is_bad(Index f) const
+  bool has_moved(Index f, const Buffer<Vector_3>& before) const
+  {
+    const std::array<Index, 3> v = corners(f);
+    return std::any_of(v.begin(), v.end(), [&](Index w) { return surface_.points[w] != before[w]; });
+  }
+
+  /// Whether a face turned far or came to violate a limit.
+  bool is_bad(Index f, const Buffer<Vector_3>& before) const
+  {
+    const auto [a, b, c] = corners(f);
+    const Vector_3 old = (before[b] - before[a]).cross(before[c] - before[a]);
+    return surface_.normal(3 * f).dot(old) < min_turn * old.norm() || !represented_.are_within_limits(f, max_distance_);
+  }
+
+  bool keeps_tolerance(Index f) const
+  {
+    const auto [a, b, c] = corners(f);
+    return surface_.keeps_tolerance(surface_.corner(a), surface_.corner(b), surface_.corner(c), max_pieces);
+  }
+
+  std::array<Index, 3> corners(Index f) const
   {
     const std::size_t h = 3 * std::size_t(f);
-    const Index a = mesh_.corner[h], b = mesh_.corner[h + 1], c = mesh_.corner[h + 2];
-    const bool has_moved = surface_.points[a] != before_[a] || surface_.points[b] != before_[b] ||
-                           surface_.points[c] != before_[c];
-    if (!has_moved) return false;
-    const Vector_3 old = (before_[b] - before_[a]).cross(before_[c] - before_[a]);
-    return surface_.normal(3 * f).dot(old) < min_turn * old.norm() || !represented_.are_within_limits(f, max_distance_);
+    return {mesh_.corner[h], mesh_.corner[h + 1], mesh_.corner[h + 2]};
   }
 
   static constexpr double attraction = 0.05; // of a vertex to where it is, of that to the points
@@ -136,6 +151,7 @@ private:
   static constexpr double max_move = 0.5;   // of a vertex, in largest distances
   static constexpr double damping = 0.8;    // the block Jacobi iteration has eigenvalues from 1/2 to 2
   static constexpr double min_turn = 0.5;
+  static constexpr std::size_t max_pieces = 1024; // of a face, which may stand for hundreds of others
 
   const Execution& execution_;
   Surface& surface_;
