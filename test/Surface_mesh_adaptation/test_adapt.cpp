@@ -647,6 +647,21 @@ TEST(Tolerance, is_kept_against_sizes_that_are_far_too_coarse)
       expect_tolerance_is_kept(shapes::mesh<Mesh>(soup), SMA::Uniform_metric_field(0.8), tolerance);
 }
 
+TEST(Tolerance, is_used_up_where_sizes_are_too_coarse)
+{
+  for (const char* name : {"mushroom", "elephant"}) {
+    SCOPED_TRACE(name);
+    Mesh mesh = real_mesh<Mesh>(name);
+    const Soup before = shapes::soup(mesh);
+    const double tolerance = 0.003 * SMA::internal::diagonal_of_bounding_box(before.points);
+    const SMA::Uniform_metric_field field(2 * before.mean_edge_length());
+    const double certified =
+      SMA::adapt_surface_mesh(mesh, field, SMA::parameters::tolerance(tolerance)).certified_distance;
+    EXPECT_LE(certified, tolerance);
+    EXPECT_GT(certified, 0.9 * tolerance);
+  }
+}
+
 TEST(Tolerance, that_cannot_be_kept_is_an_error_and_leaves_the_mesh)
 {
   Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(3, 0.3));

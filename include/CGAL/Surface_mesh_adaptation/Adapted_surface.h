@@ -7,6 +7,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_ADAPTED_SURFACE_H
 
 #include <CGAL/Surface_mesh_adaptation/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/Covered_points.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_background.h>
 #include <CGAL/Surface_mesh_adaptation/Reference_surface.h>
@@ -18,6 +19,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace CGAL {
@@ -121,6 +123,7 @@ public:
       origin[v] = Index(v);
       active[v] = 0xff;
     });
+    if (has_tolerance()) covered_.emplace(execution, mesh, reference_->points);
   }
 
   const Reference& reference() const { return *reference_; }
@@ -296,16 +299,34 @@ public:
     return is_within(tolerance_->input, {a.point, b.point, c.point}, tolerance_->of_operations, guesses, max_pieces);
   }
 
-  /// Whether faces are not too far from a point of the surface as it was for the input to stay within the tolerance of
-  /// the surface as it will be. Conservative for a point of the input; what earlier operations left behind is not
-  /// looked at, which is why the distance is measured in the end. \pre `has_tolerance()`
-  template <class Faces>
-  bool is_near(const Faces& faces, const Vector_3& p) const
+  /// Whether the points of the input that `faces` cover stay within the tolerance of `triangles`, which are to replace
+  /// these. Nothing is said of what lies between, which is why the distance is measured in the end. \pre `has_tolerance()`
+  template <class Faces, class Triangles>
+  bool are_covered(const Faces& faces, const Triangles& triangles) const
   {
-    const double limit = share_of_point * tolerance_->of_operations;
-    for (const Triangle_points& face : faces)
-      if (squared_distance_to_triangle(p, face) <= limit * limit) return true;
-    return false;
+    return covered_->are_near(faces, triangles, tolerance_->of_operations);
+  }
+
+  /// Hands what `faces` cover on to those of them that are left.
+  template <class Faces>
+  void hand_over(const Faces& faces)
+  {
+    covered_->hand_over(mesh, points, faces);
+  }
+
+  /// Hands what all faces cover on to their children, after `plan` was carried out.
+  template <class Execution>
+  void hand_to_children(const Execution& execution, const Restructuring& plan)
+  {
+    if (has_tolerance()) covered_->hand_to_children(execution, plan, mesh, points);
+  }
+
+  /// The faces around `v`.
+  Ring<Index> faces_around(Index v) const
+  {
+    Ring<Index> faces;
+    mesh.for_each_outgoing(v, [&](Index h) { faces.push_back(Mesh_view::face(h)); });
+    return faces;
   }
 
   /// Multiplies the metric by `factor`: the vertices it asks for, but for boundaries, too.
@@ -389,11 +410,11 @@ private:
   static constexpr double split_distance = 0.2;   // of the edge: more means that the walk did not get there
 
   static constexpr double share_of_bulge = 0.25;  // of the tolerance: the rest is for the faces between the points
-  static constexpr double share_of_point = 0.5;   // the same: operations add up
 
   const Reference* reference_;
   const Background* background_;
   const Tolerance* tolerance_;
+  std::optional<Covered_points> covered_; // if there is a tolerance
   double scale_ = 1; ///< of the metric
 };
 

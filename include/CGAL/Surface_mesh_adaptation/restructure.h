@@ -133,6 +133,9 @@ public:
     return vertex_offset_[o / 3] + vertices_before(o / 3, 2 * int(o % 3) + 1);
   }
 
+  /// The new id of the first of the faces that `f` becomes; those of the next face follow. `f` may be one past the last.
+  Index first_child(Index f) const { return f < face_offset_.size() ? face_offset_[f] : number_of_faces_; }
+
   bool is_split(Index h) const { return (codes_[h / 3] >> (h % 3) & 1) != 0; }
 
   /// The new id of a corner (0 to 2) or midpoint (3 to 5) of face `f`.

@@ -15,9 +15,6 @@ namespace Surface_mesh_adaptation {
 /// Long faces are good ones where the surface bends in one direction only.
 constexpr double min_quality_of_approximation = 0.02;
 
-/// Of the tolerance: the points that faces stand for leave little to chance.
-constexpr double share_of_simplification = 0.95;
-
 namespace internal {
 
 /// The limits that the parameters ask for.
@@ -82,7 +79,7 @@ auto simplify(const Execution& execution, TriangleMesh& mesh, const MetricField&
       Deviation_limits limits = asked; // a tolerance that is missed gets stricter
       limits.distance = (std::min)(limits.distance, surface.tolerance_of_operations());
       return Approximation(policy, surface, thresholds, limits);
-    }, sweep, share_of_simplification);
+    }, sweep);
   } else
     return internal::run_kernel(execution, mesh, field, np, 24, [](const auto& policy, auto& surface) {
       return Simplification(policy, surface, Simplification_thresholds());

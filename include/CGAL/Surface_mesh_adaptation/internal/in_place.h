@@ -117,19 +117,18 @@ Attribute_transfer<FaceGraph, Maps...> attribute_transfer(const FaceGraph&, cons
   return {imported, maps};
 }
 
-constexpr double share_of_operations = 0.8; // of the tolerance, at first: they look at few points of the input
+constexpr double share_of_operations = 0.95; // of the tolerance, at first
 
-/// The tolerance that the parameters ask for, if any. Operations are to keep a share of it.
+/// The tolerance that the parameters ask for, if any.
 /// \throws Invalid_parameter_error
 template <class Reference, class NamedParameters>
-std::optional<Tolerance> tolerance_of(const Any_execution& execution, const Reference& reference, const NamedParameters& np,
-                                      double share)
+std::optional<Tolerance> tolerance_of(const Any_execution& execution, const Reference& reference, const NamedParameters& np)
 {
   constexpr double none = std::numeric_limits<double>::infinity();
   const double distance = choose(np, internal_np::tolerance, none);
   if (!(distance > 0)) throw Invalid_parameter_error("the tolerance must be positive");
   if (distance == none) return std::nullopt;
-  return Tolerance{distance, share * distance, Triangle_tree(execution, reference.mesh, reference.points)};
+  return Tolerance{distance, share_of_operations * distance, Triangle_tree(execution, reference.mesh, reference.points)};
 }
 
 /// An upper bound of the distance between the input and the adapted mesh.
@@ -160,8 +159,7 @@ Adaptation_report adapt_within(Tolerance& tolerance, const Adapt& adapt)
 /// Runs `kernels(execution, surface)`, which returns a report, on `graph`.
 template <class FaceGraph, class MetricField, class NamedParameters, class Kernels>
 Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& graph, const MetricField& field,
-                                 const NamedParameters& np, const Kernels& kernels,
-                                 double share_of_tolerance = share_of_operations)
+                                 const NamedParameters& np, const Kernels& kernels)
 {
   using Reconstruction = std::decay_t<decltype(
     choose(np, internal_np::surface_reconstruction, Gregory_reconstruction()))>;
@@ -173,7 +171,7 @@ Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& grap
   with_input_numbers(graph, imported, [&] { given = given_jets(imported, np); });
   const Reference_surface<Reconstruction> reference(execution, imported.mesh, imported.points, features, std::move(given));
 
-  std::optional<Tolerance> tolerance = tolerance_of(execution, reference, np, share_of_tolerance);
+  std::optional<Tolerance> tolerance = tolerance_of(execution, reference, np);
 
   Adaptation_report report;
   const auto adapt = [&](const auto& background) {

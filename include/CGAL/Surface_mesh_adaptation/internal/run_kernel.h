@@ -19,8 +19,7 @@ namespace internal {
 /// `make(execution, surface)` returns the kernel, `sweep(kernel, counts)` the number of operations of one sweep.
 template <class Execution, class TriangleMesh, class MetricField, class NamedParameters, class Make, class Sweep>
 std::size_t run_kernel(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
-                       const NamedParameters& np, unsigned default_sweeps, const Make& make, const Sweep& sweep,
-                       double share_of_tolerance = share_of_operations)
+                       const NamedParameters& np, unsigned default_sweeps, const Make& make, const Sweep& sweep)
 {
   const std::size_t max_sweeps = choose(np, CGAL::internal_np::number_of_iterations, default_sweeps);
   Adaptation_visitor nothing;
@@ -35,7 +34,7 @@ std::size_t run_kernel(const Execution& execution, TriangleMesh& mesh, const Met
       report.stopped = !visitor.go_on();
     Refinement(policy, surface).compact();
     return report;
-  }, share_of_tolerance);
+  });
   return counts.applied;
 }
 

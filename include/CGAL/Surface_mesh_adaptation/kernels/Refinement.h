@@ -284,11 +284,15 @@ private:
     const Index a = mesh_.corner[3 * f], b = mesh_.corner[3 * f + 1], c = mesh_.corner[3 * f + 2];
     const Vector_3 parent = surface_.normal(a, b, c);
     const double limit = (std::min)(min_alignment, surface_.alignment(parent, a, b, c));
+    Ring<Triangle_points> children;
     for (std::size_t i = 0; i < std::size_t(pattern.number_of_children); ++i) {
       if (!is_child_upright(plan, f, pattern.child[i], parent, limit)) return false;
-      if (surface_.has_tolerance() && !child_keeps_tolerance(plan, f, pattern.child[i])) return false;
+      if (!surface_.has_tolerance()) continue;
+      if (!child_keeps_tolerance(plan, f, pattern.child[i])) return false;
+      const auto point = [&](std::size_t k) { return points_[plan.vertex_of_label(f, pattern.child[i][k])]; };
+      children.push_back({point(0), point(1), point(2)});
     }
-    return true;
+    return !surface_.has_tolerance() || surface_.are_covered(std::array{f}, children);
   }
 
   bool is_child_upright(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels,
@@ -336,6 +340,7 @@ private:
     surface_.locations.swap(locations_);
     surface_.origin.swap(origin_);
     surface_.active.swap(active_);
+    surface_.hand_to_children(execution_, plan);
   }
 
   const Execution& execution_;

@@ -162,6 +162,7 @@ private:
   {
     if (surface_.has_tolerance() && !keeps_tolerance(v, star, moved)) return false;
     surface_.set(v, moved);
+    if (surface_.has_tolerance()) surface_.hand_over(surface_.faces_around(v));
     activate_around(v, star, moved);
     return true;
   }
@@ -173,7 +174,7 @@ private:
       faces.push_back({moved.point, a.point, b.point});
       return surface_.keeps_tolerance({moved.location, moved.point}, surface_.corner(a.vertex),
                                       surface_.corner(b.vertex));
-    }) && surface_.is_near(faces, surface_.points[v]);
+    }) && surface_.are_covered(surface_.faces_around(v), faces);
   }
 
   /// The neighbours may move now; the other kernels look again only where the move left something for them.

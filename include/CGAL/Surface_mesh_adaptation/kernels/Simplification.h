@@ -69,8 +69,12 @@ public:
 
   void apply(const Mesh_view::Directed_edge& e)
   {
-    mesh_.for_each_neighbor(mesh_.vanishing_vertex(e), [&](Index x) { activate(surface_, x); });
+    const Index s = mesh_.vanishing_vertex(e);
+    mesh_.for_each_neighbor(s, [&](Index x) { activate(surface_, x); });
+    if (!surface_.has_tolerance()) return mesh_.collapse(e);
+    const Ring<Index> faces = surface_.faces_around(s);
     mesh_.collapse(e);
+    surface_.hand_over(faces);
   }
 
 private:
@@ -225,7 +229,7 @@ private:
       is_kept = surface_.keeps_tolerance(surface_.corner(d), surface_.corner(x), surface_.corner(y));
       return is_kept;
     });
-    return is_kept && surface_.is_near(faces, surface_.points[s]);
+    return is_kept && surface_.are_covered(surface_.faces_around(s), faces);
   }
 
   static constexpr double max_misfit = 1.3; // of what it was: where there are too many vertices moves make good for it

@@ -85,7 +85,9 @@ public:
   {
     for (Index v : {mesh_.source(h), mesh_.target(h), mesh_.apex(h), mesh_.apex(mesh_.twin[h])})
       touched_[v] = 1;
+    const std::array<Index, 2> faces{Mesh_view::face(h), Mesh_view::face(mesh_.twin[h])};
     mesh_.flip(h);
+    if (surface_.has_tolerance()) surface_.hand_over(faces);
   }
 
 private:
@@ -201,7 +203,7 @@ private:
     if (!is_thin &&
         (std::min)({new1.dot(old1), new1.dot(old2), new2.dot(old1), new2.dot(old2), new1.dot(new2)}) < turn)
       return false;
-    if (surface_.has_tolerance() && !keeps_tolerance(p, q, a, b)) return false;
+    if (surface_.has_tolerance() && !keeps_tolerance(h)) return false;
     if (is_thin || (surface_.is_flat(new1, a, b, p) && surface_.is_flat(new2, b, a, q))) return true;
     // faces (p, q, b) and (q, p, a) with outer edges hn hp and tn tp become (a, b, p) and (b, a, q) with hp tn and tp hn
     const Index hn = Mesh_view::next(h), hp = Mesh_view::previous(h), tn = Mesh_view::next(t), tp = Mesh_view::previous(t);
@@ -211,14 +213,16 @@ private:
                                fold_across(tp, old2)});
   }
 
-  bool keeps_tolerance(Index p, Index q, Index a, Index b) const
+  bool keeps_tolerance(Index h) const
   {
+    const Index t = mesh_.twin[h];
+    const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
     const auto& points = surface_.points;
     const std::array<Triangle_points, 2> faces{{{points[a], points[b], points[p]}, {points[b], points[a], points[q]}}};
     const auto is_kept = [&](Index v) {
       return surface_.keeps_tolerance(surface_.corner(a), surface_.corner(b), surface_.corner(v));
     };
-    return surface_.is_near(faces, 0.5 * (points[p] + points[q])) && is_kept(p) && is_kept(q);
+    return surface_.are_covered(std::array{Mesh_view::face(h), Mesh_view::face(t)}, faces) && is_kept(p) && is_kept(q);
   }
 
   /// Cosine between a face with normal `n` on the side of `h` and the face behind `h`; 1 across features.
