@@ -33,22 +33,22 @@ public:
   Covered_points(const Execution& execution, const Mesh_view& mesh, const Points& points)
   {
     const std::size_t n = mesh.number_of_faces();
+    Buffer<Index> offset;
+    const std::size_t size = exclusive_scan(execution, n, offset, [&](std::size_t f) {
+      Index count = 0;
+      for_each_own_point(mesh, points, Index(f), [&](const Vector_3&) { ++count; });
+      return count;
+    });
     first_.resize(n);
-    next_.resize(points_of_face * n);
-    points_.resize(points_of_face * n);
+    next_.resize(size);
+    points_.resize(size);
     for_each_index(execution, n, [&](std::size_t f) {
-      const auto corner = [&](std::size_t i) -> const Vector_3& { return points[mesh.corner[3 * f + i % 3]]; };
       first_[f] = no_index;
-      Index i = points_of_face * Index(f);
-      const auto add = [&](const Vector_3& p) {
+      Index i = offset[f];
+      for_each_own_point(mesh, points, Index(f), [&](const Vector_3& p) {
         points_[i] = p;
         link(i++, Index(f));
-      };
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (mesh.outgoing[mesh.corner[3 * f + k]] == 3 * f + k) add(corner(k));
-        if (mesh.is_edge_owner(Index(3 * f + k))) add((corner(k) + corner(k + 1)) / 2);
-      }
-      add((corner(0) + corner(1) + corner(2)) / 3);
+      });
     });
   }
 
@@ -98,7 +98,17 @@ public:
   }
 
 private:
-  static constexpr Index points_of_face = 7; // at most
+  /// Calls `add(p)` for the centroid of `f` and those of its corners and middles of edges that no other face has.
+  template <class Points, class Add>
+  static void for_each_own_point(const Mesh_view& mesh, const Points& points, Index f, const Add& add)
+  {
+    const auto corner = [&](Index k) -> const Vector_3& { return points[mesh.corner[3 * std::size_t(f) + k % 3]]; };
+    for (Index k = 0; k < 3; ++k) {
+      if (mesh.outgoing[mesh.corner[3 * std::size_t(f) + k]] == 3 * f + k) add(corner(k));
+      if (mesh.is_edge_owner(3 * f + k)) add(Vector_3((corner(k) + corner(k + 1)) / 2));
+    }
+    add(Vector_3((corner(0) + corner(1) + corner(2)) / 3));
+  }
 
   template <class Triangles>
   static bool is_near(const Vector_3& p, const Triangles& triangles, double squared_distance, std::size_t& hint)
