@@ -170,11 +170,12 @@ private:
   bool keeps_tolerance(Index v, const Star& star, const Placed_vertex<Metric>& moved) const
   {
     Ring<Triangle_points> faces;
-    return star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
-      faces.push_back({moved.point, a.point, b.point});
-      return surface_.keeps_tolerance({moved.location, moved.point}, surface_.corner(a.vertex),
-                                      surface_.corner(b.vertex));
-    }) && surface_.are_covered(surface_.faces_around(v), faces);
+    star.for_each_face([&](const Neighbor& a, const Neighbor& b) { faces.push_back({moved.point, a.point, b.point}); });
+    return surface_.are_covered(surface_.faces_around(v), faces) &&
+           star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
+             return surface_.keeps_tolerance({moved.location, moved.point}, surface_.corner(a.vertex),
+                                             surface_.corner(b.vertex));
+           });
   }
 
   /// The neighbours may move now; the other kernels look again only where the move left something for them.

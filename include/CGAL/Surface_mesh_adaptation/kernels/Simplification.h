@@ -220,16 +220,21 @@ private:
 
   bool keeps_tolerance(Index s, Index d) const
   {
+    Ring<Index> old_faces;
     Ring<Triangle_points> faces;
+    mesh_.for_each_outgoing(s, [&](Index h) {
+      const Index x = mesh_.target(h), y = mesh_.apex(h);
+      old_faces.push_back(Mesh_view::face(h));
+      if (x != d && y != d) faces.push_back({surface_.points[d], surface_.points[x], surface_.points[y]});
+    });
+    if (!surface_.are_covered(old_faces, faces)) return false; // this first: the other direction takes longer
     bool is_kept = true;
     mesh_.for_each_outgoing_while(s, [&](Index h) {
       const Index x = mesh_.target(h), y = mesh_.apex(h);
-      if (x == d || y == d) return true;
-      faces.push_back({surface_.points[d], surface_.points[x], surface_.points[y]});
-      is_kept = surface_.keeps_tolerance(surface_.corner(d), surface_.corner(x), surface_.corner(y));
+      is_kept = x == d || y == d || surface_.keeps_tolerance(surface_.corner(d), surface_.corner(x), surface_.corner(y));
       return is_kept;
     });
-    return is_kept && surface_.are_covered(surface_.faces_around(s), faces);
+    return is_kept;
   }
 
   static constexpr double max_misfit = 1.3; // of what it was: where there are too many vertices moves make good for it
