@@ -15,6 +15,7 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/restructure.h>
 #include <CGAL/Surface_mesh_adaptation/surface_distance.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Point_lists.h>
 
 #include <algorithm>
 #include <array>
@@ -39,15 +40,14 @@ public:
       for_each_own_point(mesh, points, Index(f), [&](const Vector_3&) { ++count; });
       return count;
     });
-    first_.resize(n);
-    next_.resize(size);
+    lists_.resize(n, size);
     points_.resize(size);
     for_each_index(execution, n, [&](std::size_t f) {
-      first_[f] = no_index;
+      lists_.first[f] = no_index;
       Index i = offset[f];
       for_each_own_point(mesh, points, Index(f), [&](const Vector_3& p) {
         points_[i] = p;
-        link(i++, Index(f));
+        lists_.link(i++, Index(f));
       });
     });
   }
@@ -60,7 +60,7 @@ public:
     for (const Triangle_points& t : triangles) prepared.emplace_back(t);
     std::size_t hint = 0; // points that follow each other are mostly near the same triangle
     for (const Index f : faces)
-      for (Index i = first_[f]; i != no_index; i = next_[i])
+      for (Index i = lists_.first[f]; i != no_index; i = lists_.next[i])
         if (!is_near(points_[i], prepared, distance * distance, hint)) return false;
     return true;
   }
@@ -71,8 +71,8 @@ public:
   {
     Ring<Index> moving;
     for (const Index f : faces) {
-      for (Index i = first_[f]; i != no_index; i = next_[i]) moving.push_back(i);
-      first_[f] = no_index;
+      for (Index i = lists_.first[f]; i != no_index; i = lists_.next[i]) moving.push_back(i);
+      lists_.first[f] = no_index;
     }
     Ring<Index> left;
     for (const Index f : faces)
@@ -86,11 +86,11 @@ public:
                         const Buffer<Vector_3>& points)
   {
     Buffer<Index> first_of_parents;
-    first_of_parents.swap(first_);
-    fill(execution, first_, mesh.number_of_faces(), Index(no_index));
+    first_of_parents.swap(lists_.first);
+    fill(execution, lists_.first, mesh.number_of_faces(), Index(no_index));
     for_each_index(execution, first_of_parents.size(), [&](std::size_t parent) {
       Ring<Index> moving, children;
-      for (Index i = first_of_parents[parent]; i != no_index; i = next_[i]) moving.push_back(i);
+      for (Index i = first_of_parents[parent]; i != no_index; i = lists_.next[i]) moving.push_back(i);
       const Index end = plan.first_child(Index(parent) + 1);
       for (Index f = plan.first_child(Index(parent)); f < end; ++f) children.push_back(f);
       if (!children.empty()) link_to_nearest(moving, mesh, points, children);
@@ -133,18 +133,11 @@ private:
       std::pair<double, Index> nearest{std::numeric_limits<double>::infinity(), faces.front()};
       for (std::size_t k = 0; k < faces.size(); ++k)
         nearest = (std::min)(nearest, {triangles[k].squared_distance(points_[i]).squared, faces[k]});
-      link(i, nearest.second);
+      lists_.link(i, nearest.second);
     }
   }
 
-  void link(Index i, Index f)
-  {
-    next_[i] = first_[f];
-    first_[f] = i;
-  }
-
-  Buffer<Index> first_;     // of each face
-  Buffer<Index> next_;      // of each point
+  internal::Point_lists lists_;
   Buffer<Vector_3> points_;
 };
 

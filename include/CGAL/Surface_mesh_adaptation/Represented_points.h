@@ -15,11 +15,13 @@
 #include <CGAL/Surface_mesh_adaptation/Merged_star.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/surface_distance.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Point_lists.h>
 #include <CGAL/Surface_mesh_adaptation/internal/closest_point.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -32,6 +34,9 @@ struct Deviation_limits
   double distance = std::numeric_limits<double>::infinity();  ///< of each point from the face
   double min_cosine = -1;                                     ///< between its normal and those of the input
 };
+
+/// Pieces of a face of which the distance from the input is bounded: it may stand for hundreds of others.
+constexpr std::size_t max_pieces_of_face = 1024;
 
 /// Which limit is exceeded.
 enum class Excess { none, distance, normal };
@@ -53,7 +58,6 @@ public:
     : surface_(surface), mesh_(surface.mesh), limits_(limits)
   {
     const std::size_t n = mesh_.number_of_faces();
-    first_.resize(n);
     normals_.resize(n);
     Buffer<Index> offset;
     const std::size_t corners = exclusive_scan(execution, n, offset, [&](std::size_t f) {
@@ -61,12 +65,13 @@ public:
       for_each_listed_corner(Index(f), [&](Index, double, double) { ++count; });
       return count;
     });
-    next_.resize(n + corners + 3 * n);
-    points_.resize(next_.size());
-    weights_.resize(next_.size());
+    const std::size_t size = n + corners + 3 * n;
+    lists_.resize(n, size);
+    points_.resize(size);
+    weights_.resize(size);
     for_each_index(execution, n, [&](std::size_t f) {
       normals_[f] = surface_.normal(Index(3 * f));
-      first_[f] = no_index;
+      lists_.first[f] = no_index;
       Index i = Index(n) + offset[f];
       for_each_listed_corner(Index(f), [&](Index h, double u, double v) {
         add(i++, Index(f), u, v, weight_of_corner * area_of_side(h));
@@ -86,7 +91,7 @@ public:
     std::size_t hint = 0;
     Deviation d;
     for (const Merged_star::Face& old : star.faces())
-      for (Index i = first_[Mesh_view::face(old.halfedge)]; i != no_index; i = next_[i]) {
+      for (Index i = lists_.first[Mesh_view::face(old.halfedge)]; i != no_index; i = lists_.next[i]) {
         const auto nearest = faces.nearest(points_[i], old.side, hint);
         if (nearest.first == nullptr || nearest.second > limits_.distance * limits_.distance)
           return {Excess::distance};
@@ -110,12 +115,12 @@ public:
     std::size_t hint = 0;
     Ring<std::pair<Index, Index>> moves;
     for (const Merged_star::Face& old : star.faces()) {
-      Index& first = first_[Mesh_view::face(old.halfedge)];
-      for (Index i = first; i != no_index; i = next_[i])
+      Index& first = lists_.first[Mesh_view::face(old.halfedge)];
+      for (Index i = first; i != no_index; i = lists_.next[i])
         moves.emplace_back(i, faces.nearest(points_[i], old.side, hint).first->face);
       first = no_index;
     }
-    for (const auto& m : moves) link(m.first, m.second);
+    for (const auto& m : moves) lists_.link(m.first, m.second);
   }
 
   /// Whether all points of face `f` are within the limits and no further away than `max_distance`.
@@ -124,7 +129,7 @@ public:
     const internal::Prepared_triangle face(corners(f));
     const Vector_3 normal = face.normal();
     const double limit = (std::min)(limits_.distance, max_distance);
-    for (Index i = first_[f]; i != no_index; i = next_[i])
+    for (Index i = lists_.first[f]; i != no_index; i = lists_.next[i])
       if (face.squared_distance(points_[i]).squared > limit * limit || !is_normal_within_limits(i, normal))
         return false;
     return true;
@@ -138,7 +143,7 @@ public:
       if (mesh_.is_removed_face(Index(f))) return 0.0;
       const internal::Prepared_triangle face(corners(Index(f)));
       double largest = 0;
-      for (Index i = first_[f]; i != no_index; i = next_[i])
+      for (Index i = lists_.first[f]; i != no_index; i = lists_.next[i])
         largest = (std::max)(largest, face.squared_distance(points_[i]).squared);
       return largest;
     }, [](double a, double b) { return (std::max)(a, b); }));
@@ -149,7 +154,7 @@ public:
   void for_each_point(Index f, const G& g) const
   {
     const std::array<Vector_3, 3> p = corners(f);
-    for (Index i = first_[f]; i != no_index; i = next_[i])
+    for (Index i = lists_.first[f]; i != no_index; i = lists_.next[i])
       g(internal::closest_point_of_triangle(points_[i], p[0], p[1], p[2]), weights_[i]);
   }
 
@@ -251,20 +256,13 @@ private:
   {
     points_[i] = surface_.point({Vertex_class::smooth, f, u, v});
     weights_[i] = weight;
-    link(i, f);
-  }
-
-  void link(Index i, Index f)
-  {
-    next_[i] = first_[f];
-    first_[f] = i;
+    lists_.link(i, f);
   }
 
   const Surface& surface_;
   const Mesh_view& mesh_;
   Deviation_limits limits_;
-  Buffer<Index> first_;      // of each face
-  Buffer<Index> next_;       // of each point
+  internal::Point_lists lists_;
   Buffer<Vector_3> points_;
   Buffer<double> weights_;
   Buffer<Vector_3> normals_; // of the faces of the input

@@ -117,7 +117,6 @@ private:
 
   static constexpr double none = std::numeric_limits<double>::infinity();
   static constexpr double precision = 0.02;   // of a location, of the length of the edge
-  static constexpr std::size_t max_pieces = 1024; // of a face, which may stand for hundreds
   static constexpr double typical_share = 0.25; // of the largest squared distance: their mean
   static constexpr double attraction = 1e-7;  // of the middle of an edge, of that of the planes
 
@@ -247,7 +246,7 @@ private:
     if (!surface_.has_tolerance()) return true;
     return std::all_of(star.faces().begin(), star.faces().end(), [&](const Merged_star::Face& f) {
       return f.vanishes || surface_.keeps_tolerance({c.location, c.point}, surface_.corner(mesh_.target(f.halfedge)),
-                                                    surface_.corner(mesh_.apex(f.halfedge)), max_pieces);
+                                                    surface_.corner(mesh_.apex(f.halfedge)), max_pieces_of_face);
     });
   }
 

@@ -137,7 +137,7 @@ private:
   bool keeps_tolerance(Index f) const
   {
     const auto [a, b, c] = corners(f);
-    return surface_.keeps_tolerance(surface_.corner(a), surface_.corner(b), surface_.corner(c), max_pieces);
+    return surface_.keeps_tolerance(surface_.corner(a), surface_.corner(b), surface_.corner(c), max_pieces_of_face);
   }
 
   std::array<Index, 3> corners(Index f) const
@@ -151,7 +151,6 @@ private:
   static constexpr double max_move = 0.5;   // of a vertex, in largest distances
   static constexpr double damping = 0.8;    // the block Jacobi iteration has eigenvalues from 1/2 to 2
   static constexpr double min_turn = 0.5;
-  static constexpr std::size_t max_pieces = 1024; // of a face, which may stand for hundreds of others
 
   const Execution& execution_;
   Surface& surface_;
