@@ -19,7 +19,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
+#include <map>
 
 namespace {
 
@@ -324,6 +326,73 @@ TEST(Swap, restores_a_triangulation_that_was_scrambled)
   SMA::swap(mesh, SMA::Uniform_metric_field(1));
   const Soup after = shapes::soup(mesh);
   EXPECT_GT(checks::mean_quality(after), 0.94); // the short diagonal gives 0.96, the long one 0.56
+}
+
+/// Vertices `(column, row)` of a tube of so many columns and rows of squares, by their angle and height.
+template <class Point>
+Soup tube(std::size_t columns, std::size_t rows, const Point& point)
+{
+  Soup s;
+  for (std::size_t r = 0; r <= rows; ++r)
+    for (std::size_t c = 0; c < columns; ++c) s.points.push_back(point(c, r));
+  for (std::size_t r = 0; r < rows; ++r)
+    for (std::size_t c = 0; c < columns; ++c) {
+      const std::size_t d = (c + 1) % columns;
+      const SMA::Index a = SMA::Index(r * columns + c), b = SMA::Index(r * columns + d);
+      const SMA::Index above_a = SMA::Index(a + columns), above_b = SMA::Index(b + columns);
+      if (r % 2 == 0) {
+        s.triangles.push_back({a, b, above_b});
+        s.triangles.push_back({a, above_b, above_a});
+      } else {
+        s.triangles.push_back({a, b, above_a});
+        s.triangles.push_back({b, above_b, above_a});
+      }
+    }
+  return s;
+}
+
+TEST(Swap, gives_ridges_three_faces_on_each_side)
+{
+  // a square tube of which the diagonals zigzag: 4 and 2 faces at the vertices of its ridges, 6 together
+  constexpr std::size_t rows = 20;
+  const Soup zigzag = tube(4, rows, [](std::size_t c, std::size_t r) {
+    return Vector_3(c == 1 || c == 2, c >= 2, double(r));
+  });
+  Mesh mesh = shapes::mesh<Mesh>(zigzag);
+  EXPECT_GT(SMA::swap(mesh, SMA::Uniform_metric_field(1)), 0u);
+  std::map<std::array<int, 4>, int> faces; // at a point of space, for the normal of a side
+  const Soup after = shapes::soup(mesh);
+  for (const shapes::Triangle& t : after.triangles) {
+    const Vector_3 center = (after.points[t[0]] + after.points[t[1]] + after.points[t[2]]) / 3;
+    const int side = center.x() == 0 ? 0 : center.x() == 1 ? 1 : center.y() == 0 ? 2 : 3;
+    for (const auto v : t) {
+      const Vector_3& p = after.points[v];
+      ++faces[{int(p.x()), int(p.y()), int(p.z()), side}];
+    }
+  }
+  int inside = 0, balanced = 0;
+  for (const auto& f : faces)
+    if (f.first[2] > 0 && f.first[2] < int(rows)) {
+      ++inside;
+      balanced += f.second == 3;
+    }
+  EXPECT_EQ(inside, 8 * int(rows - 1));
+  EXPECT_GT(balanced, 0.8 * inside); // none before
+}
+
+TEST(Relocate, moves_balanced_curves_to_where_the_faces_are_equilateral)
+{
+  // a band of three rows, of which the outer ones are turned against each other: their edges are all alike
+  constexpr std::size_t columns = 60;
+  const double radius = double(columns) / (2 * shapes::pi), skew = 0.35;
+  const Soup skewed = tube(columns, 2, [&](std::size_t c, std::size_t r) {
+    const double angle = (double(c) + (r == 0 ? -0.5 + skew : r == 1 ? 0 : -0.5 - skew)) / radius;
+    return Vector_3(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(0.75) * double(r));
+  });
+  EXPECT_LT(checks::mean_quality(skewed), 0.95);
+  Mesh mesh = shapes::mesh<Mesh>(skewed);
+  SMA::relocate(mesh, SMA::Uniform_metric_field(1), params::number_of_iterations(50));
+  EXPECT_GT(checks::mean_quality(shapes::soup(mesh)), 0.99);
 }
 
 TEST(Relocate, raises_the_mean_and_the_least_quality)

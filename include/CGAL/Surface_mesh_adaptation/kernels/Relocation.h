@@ -4,15 +4,16 @@
 //
 // Diffusion towards the centre of mass of the surrounding faces, weighted by the density of the metric (equation 1),
 // and towards where these would be equilateral; over-relaxed, with a step that is halved until no face is made worse
-// than allowed. Curve vertices move along their curve to balance the metric lengths on both sides; corners stay. Where
-// that does nothing for a vertex with a bad face around it, its worst distortion is minimised (minimize_worst.h), until
-// no face is bad.
+// than allowed. Curve vertices move along their curve to balance the metric lengths on both sides, and where these are
+// balanced also for the faces; corners stay. Where that does nothing for a vertex with a bad face around it, its worst
+// distortion is minimised (minimize_worst.h), until no face is bad.
 //
 // Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Where a face
 // is not flat, the test for folds also looks at the vertices behind the ring: if these may be moving, the vertex is put
 // off until they stand still.
-// Invariants: connectivity is not touched; no face is turned farther from the surface than the limit or than it was; the worst face around a vertex
-// never falls below both what it was and `good_quality`, or `good_quality_on_curves` if the vertex lies on one.
+// Invariants: connectivity is not touched; no face is turned farther from the surface than the limit or than it was; the
+// worst face around a vertex never falls below both what it was and `good_quality`, or `good_quality_on_curves` if the
+// vertex lies on one.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
@@ -286,28 +287,60 @@ private:
     return is_unfolded(surface_, v, moved.point, attempt.stands_still, attempt.is_put_off);
   }
 
-  /// Displacement in the tangent plane to the mean of two points of each face around `v`, weighted by the masses of the
-  /// faces: the centre of mass, which makes the mesh as dense as the metric asks for, and the place of `v` at which the
-  /// face would be equilateral in the metric.
+  /// Where the faces around a vertex draw it: the mean of two displacements for each, weighted by the masses of the
+  /// faces, to its centre of mass, which makes the mesh as dense as the metric asks for, and to where it would be
+  /// equilateral in the metric.
+  struct Pull
+  {
+    Vector_3 edges = Vector_3::Zero();        ///< masses times the sums of the two edge vectors of each face
+    Vector_3 turned_sides = Vector_3::Zero(); ///< the sum of the weighted sides, each by a quarter turn
+    double mass = 0;
+
+    Vector_3 displacement(double share_of_shape) const
+    {
+      if (!(mass > 0)) return Vector_3::Zero();
+      const double height = std::sqrt(3.0) / 2; // of an equilateral triangle
+      return (((1 - share_of_shape) / 3 + share_of_shape / 2) * edges + share_of_shape * height * turned_sides) / mass;
+    }
+  };
+
+  /// The displacement of the smooth vertex `v` to the centre of the faces around it, in the tangent plane.
   Vector_3 displacement_to_center(Index v, const Star& star) const
   {
     const Vector_3 &p = surface_.points[v], &normal = surface_.normals[v];
     const Metric& metric = surface_.metrics[v];
-    Vector_3 sum = Vector_3::Zero(), sides = Vector_3::Zero();
-    double mass = 0;
+    Pull pull;
+    Vector_3 sides = Vector_3::Zero();
     star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
       const Vector_3 ea = a.point - p, eb = b.point - p;
       const double area = ea.cross(eb).dot(normal);
       const double m = face_mass(metric, a.metric, b.metric, ea, eb, area);
-      sum += m * (ea + eb);
+      pull.edges += m * (ea + eb);
       sides += weighted_side(metric, a.metric, b.metric, eb - ea, area);
-      mass += m;
+      pull.mass += m;
     });
-    if (!(mass > 0)) return Vector_3::Zero();
-    const double height = std::sqrt(3.0) / 2; // of an equilateral triangle
-    sum = ((1 - share_of_shape) / 3 + share_of_shape / 2) * sum + share_of_shape * height * normal.cross(sides);
-    sum /= mass;
+    pull.turned_sides = normal.cross(sides);
+    const Vector_3 sum = pull.displacement(share_of_shape);
     return sum - sum.dot(normal) * normal;
+  }
+
+  /// The displacement of the curve vertex `v` to the centre of the faces around it, along its curve. Each face has a
+  /// plane of its own.
+  double displacement_along_curve(Index v, const Star& star, const Vector_3& tangent) const
+  {
+    const Vector_3& p = surface_.points[v];
+    const Metric& metric = surface_.metrics[v];
+    Pull pull;
+    star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
+      const Vector_3 ea = a.point - p, eb = b.point - p, across = ea.cross(eb);
+      const double area = across.norm();
+      if (!(area > 0)) return;
+      const double m = face_mass(metric, a.metric, b.metric, ea, eb, area);
+      pull.edges += m * (ea + eb);
+      pull.turned_sides += (across / area).cross(weighted_side(metric, a.metric, b.metric, eb - ea, area));
+      pull.mass += m;
+    });
+    return pull.displacement(share_of_shape_on_curves).dot(tangent);
   }
 
   template <class StandsStill>
@@ -382,6 +415,16 @@ private:
     });
   }
 
+  /// Metric length of the longer of the two curve edges of `v` if it is moved to `p`; 0 if it lies on none.
+  double longest_on_curve(Index v, const Placed_vertex<Metric>& p) const
+  {
+    const auto length_to = [&](Index w) {
+      return w == no_index ? 0 : edge_length(p.metric, surface_.metrics[w], surface_.points[w] - p.point);
+    };
+    const Index w = next_on_curve(surface_, v, no_index);
+    return w == no_index ? 0 : (std::max)(length_to(w), length_to(next_on_curve(surface_, v, w)));
+  }
+
   /// Moves `v` to where its worst face is better, if it has a bad one.
   template <class StandsStill>
   bool optimize(Index v, const Star& star, Attempt<StandsStill>& attempt)
@@ -393,6 +436,8 @@ private:
     if (!(before.worst > 0)) return false;
     double radius = 0;
     for (const Neighbor& n : star.ring) radius += start.metric.length(n.point - start.point) / double(star.ring.size());
+    // thin faces between two curves would empty parts of these
+    const double longest = (std::max)(balanced_length, longest_on_curve(v, start));
     Placed_vertex<Metric> best = start;
     minimize_worst(
       best, max_step * radius, max_optimization_rounds, 1 / enough,
@@ -400,7 +445,7 @@ private:
       [&](const Placed_vertex<Metric>& x, const Vector_2& d) { return moved(x, d); },
       [&](const Placed_vertex<Metric>& x) {
         const Shape s = shape(star, x);
-        const bool is_allowed = s.worst > 0 &&
+        const bool is_allowed = s.worst > 0 && longest_on_curve(v, x) <= longest &&
                                 s.alignment >= (std::min)(thresholds_.least_alignment, before.alignment) &&
                                 !is_turned(star, start.point, x.point);
         return is_allowed ? 1 / s.worst : std::numeric_limits<double>::infinity();
@@ -410,7 +455,8 @@ private:
            apply(v, star, best);
   }
 
-  /// Moves a curve vertex to where its two curve edges have the same metric length.
+  /// Moves a curve vertex to where its two curve edges have the same metric length; if both are about as asked for, only
+  /// half-way, and half-way to the centre of the faces around it.
   template <class StandsStill>
   bool slide(Index v, const Star& star, Attempt<StandsStill>& attempt)
   {
@@ -424,8 +470,13 @@ private:
     const double d0 = arc0.second - arc0.first, d1 = arc1.second - arc1.first;
     if (!(d0 * d1 < 0) || !(l0 + l1 > 0)) return false;
     // towards the longer side by half of the excess, in units of arc length per metric length
-    const double d = l0 > l1 ? d0 * 0.5 * (l0 - l1) / l0 : d1 * 0.5 * (l1 - l0) / l1;
-    if (std::abs(l0 - l1) < 2 * min_move_) return false;
+    const double to_middle = l0 > l1 ? d0 * 0.5 * (l0 - l1) / l0 : d1 * 0.5 * (l1 - l0) / l1;
+    const Vector_3 tangent = surface_.reference().curve_tangent(surface_.locations[v]);
+    const bool is_balanced = (std::max)(l0, l1) < balanced_length && (std::min)(l0, l1) * balanced_length > 1;
+    const double d = !is_balanced ? to_middle
+                                  : std::clamp(0.5 * (to_middle + displacement_along_curve(v, star, tangent)),
+                                               0.4 * (std::min)(d0, d1), 0.4 * (std::max)(d0, d1));
+    if (surface_.metrics[v].length(d * tangent) < min_move_) return false;
     const Shape before = shape(star, surface_.vertex(v));
     const double limit = (std::min)(before.worst, good_quality(v));
     for (const double scale : {1.0, 0.5}) {
@@ -440,6 +491,8 @@ private:
   // those from face to face, which over-relaxation alone keeps alive.
   static constexpr double over_relaxation = 2.2, plain_relaxation = 1.0;
   static constexpr double share_of_shape = 0.4; // more shape costs conformity in length
+  static constexpr double share_of_shape_on_curves = 0.7; // where the lengths are looked after by themselves
+  static constexpr double balanced_length = 1.25; // of curve edges: the faces beside may pull, but longer chords cut
   static constexpr double min_improvement = 1.0 + 1e-4;
   static constexpr double least_gain = 1.01;       // of optimisation: the factor of the worst quality
   static constexpr double max_step = 0.5;          // of its first step, in mean lengths of the edges at the vertex

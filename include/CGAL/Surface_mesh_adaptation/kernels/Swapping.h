@@ -25,7 +25,7 @@ namespace Surface_mesh_adaptation {
 struct Swapping_thresholds
 {
   double max_length = max_unit_length;  ///< no swap creates an edge above, unless it replaces a longer one
-  bool equalize_degrees = true;         ///< prefer degree 6 (4 on curves) where both diagonals give good faces
+  bool equalize_degrees = true;         ///< prefer 6 faces around a vertex, 3 beside a curve, among good ones
 };
 
 template <class Surface, class Execution>
@@ -73,7 +73,7 @@ public:
                      after > max_quality_loss * before))
       return 0;
     if (thresholds_.equalize_degrees) {
-      const int change = degree_change(p, q, a, b);
+      const int change = degree_change(h);
       if (change > 0 && before > min_degree_swap_quality) return 0;
       if (change >= 0 && !better) return 0;
     }
@@ -177,15 +177,29 @@ private:
     counts.applied += winners.size();
   }
 
-  /// Change of the sum of squared deviations from the ideal degrees.
-  int degree_change(Index p, Index q, Index a, Index b) const
+  /// Change of the sum of squared deviations from the ideal numbers of faces around the four vertices: 6, or 3 on each
+  /// side of a curve. What is ideal at a corner depends on its angles.
+  int degree_change(Index h) const
   {
-    const auto change = [&](Index v, int by) {
-      const int ideal = surface_.vertex_class(v) == Vertex_class::smooth ? 6 : mesh_.is_border_vertex(v) ? 4 : 6;
-      const int d = int(mesh_.degree(v)) - ideal;
-      return (d + by) * (d + by) - d * d;
+    const auto change = [&](Index outgoing, int by) {
+      const Index v = mesh_.source(outgoing);
+      const Vertex_class kind = surface_.vertex_class(v);
+      if (kind == Vertex_class::corner) return 0;
+      const int excess = kind == Vertex_class::smooth ? int(mesh_.degree(v)) - 6 : faces_beside_curve(outgoing) - 3;
+      return (excess + by) * (excess + by) - excess * excess;
     };
-    return change(p, -1) + change(q, -1) + change(a, 1) + change(b, 1);
+    const Index t = mesh_.twin[h];
+    return change(h, -1) + change(t, -1) + change(Mesh_view::previous(h), 1) + change(Mesh_view::previous(t), 1);
+  }
+
+  /// The number of faces around the source of `h` on the side of its curve that `h` is on.
+  int faces_beside_curve(Index h) const
+  {
+    int n = 1;
+    for (Index g = h; !mesh_.is_feature(g); ++n)
+      if ((g = mesh_.rotated_cw(g)) == h) return n;
+    for (Index g = h; !mesh_.is_feature(Mesh_view::previous(g)); ++n) g = mesh_.rotated_ccw(g);
+    return n;
   }
 
   bool is_valid(Index h) const
