@@ -31,19 +31,15 @@ struct Hessian_estimate
 
 namespace internal {
 
-/// `Hessian_estimate::unexplained` of the fit with the derivatives `f` over the plane of `frame`.
+/// `Hessian_estimate::unexplained` of the fit with the derivatives `f`.
 template <class Value>
-double unexplained_share(const Sector_neighborhood& neighbors, const std::vector<Vector_3>& points,
-                         const Tangent_frame& frame, double radius, const Derivatives_2& f, const Value& value)
+double unexplained_share(const Samples_over_plane& samples, const Derivatives_2& f, const Value& value)
 {
   double all = 0, quadratic = 0;
-  for (std::size_t i = 0; i < neighbors.size(); ++i) {
-    const Vector_3 d = (points[neighbors[i]] - frame.origin) / radius;
-    const Eigen::Vector2d x(d.dot(frame.x), d.dot(frame.y));
-    const double weight = fit_weight(d.squaredNorm(), Jet_fit::exact), v = value(neighbors[i]),
-                 q = x.dot(f.hessian * x) / 2;
-    all += weight * v * v;
-    quadratic += weight * q * q;
+  for (const Sample_over_plane& s : samples) {
+    const double v = value(s), q = s.x.dot(f.hessian * s.x) / 2;
+    all += s.weight * v * v;
+    quadratic += s.weight * q * q;
   }
   const double rest = (std::max)(0.0, all - f.explained);
   return rest > 0 ? rest / (rest + quadratic) : 0;
@@ -60,8 +56,9 @@ inline Hessian_estimate hessian_of_sector(const Mesh_view& mesh, const std::vect
   const Tangent_frame frame(points[v], normal);
   const double radius = mean_distance(neighbors, points, frame.origin);
   if (!(radius > 0) || !std::isfinite(1 / radius)) return {};
-  const auto value = [&](Index w) { return values[w] - values[v]; };
-  const Cubic_fit fit = fit_over_plane(neighbors, points, frame, radius, Jet_fit::exact, value);
+  const auto value = [&](const Sample_over_plane& s) { return values[s.vertex] - values[v]; };
+  const Samples_over_plane samples = samples_over_plane(neighbors, points, frame, radius, Jet_fit::exact);
+  const Cubic_fit fit = fit_of(samples, value);
   Derivatives_2 f;
   if (!fit.solve_cubic(f) && !fit.solve_quadratic(f)) return {};
   // what the rounding of values and coordinates explains is none
@@ -71,7 +68,7 @@ inline Hessian_estimate hessian_of_sector(const Mesh_view& mesh, const std::vect
   Eigen::Matrix<double, 3, 2> axes;
   axes << frame.x, frame.y;
   return {Metric_tensor_3(Matrix_3(axes * (f.hessian / (radius * radius)) * axes.transpose())),
-          unexplained_share(neighbors, points, frame, radius, f, value)};
+          unexplained_share(samples, f, value)};
 }
 
 } // namespace internal

@@ -17,6 +17,8 @@
 #include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -86,19 +88,39 @@ inline double mean_distance(const Sector_neighborhood& neighbors, const std::vec
 /// Weight of a sample at the squared distance `d2` from the origin, in units of the mean distance. Measured: for exact
 /// samples near ones should count more (the largest error of the normals is 1.4 times smaller than with equal weights),
 /// for noisy ones all the same.
-inline double fit_weight(double d2, Jet_fit samples) { return samples == Jet_fit::exact ? 1 / (0.1 + d2) : 1; }
+inline double fit_weight(double d2, Jet_fit kind) { return kind == Jet_fit::exact ? 1 / (0.1 + d2) : 1; }
 
-/// The fit of `value(w)`, a function of the vertex that is zero at the origin, over the plane of `frame`, with `radius`
-/// as unit of length.
+/// A neighbour as a fit sees it: over the plane across the first guess of the normal.
+struct Sample_over_plane
+{
+  Index vertex;
+  Eigen::Vector2d x; ///< along the axes of the plane, in units of the radius
+  double height;     ///< across it
+  double weight;
+};
+
+using Samples_over_plane = boost::container::small_vector<Sample_over_plane, 48>;
+
+/// The `neighbors` over the plane of `frame`, with `radius` as unit of length.
+inline Samples_over_plane samples_over_plane(const Sector_neighborhood& neighbors, const std::vector<Vector_3>& points,
+                                             const Tangent_frame& frame, double radius, Jet_fit kind)
+{
+  Samples_over_plane samples;
+  const double scale = 1 / radius;
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    const Vector_3 d = scale * (points[neighbors[i]] - frame.origin);
+    samples.push_back({neighbors[i], Eigen::Vector2d(d.dot(frame.x), d.dot(frame.y)), d.dot(frame.n),
+                       fit_weight(d.squaredNorm(), kind)});
+  }
+  return samples;
+}
+
+/// The fit of `value(sample)`, a function that is zero at the origin.
 template <class Value>
-Cubic_fit fit_over_plane(const Sector_neighborhood& neighbors, const std::vector<Vector_3>& points,
-                         const Tangent_frame& frame, double radius, Jet_fit samples, const Value& value)
+Cubic_fit fit_of(const Samples_over_plane& samples, const Value& value)
 {
   Cubic_fit fit;
-  for (std::size_t i = 0; i < neighbors.size(); ++i) {
-    const Vector_3 d = (points[neighbors[i]] - frame.origin) / radius;
-    fit.add(d.dot(frame.x), d.dot(frame.y), value(neighbors[i]), fit_weight(d.squaredNorm(), samples));
-  }
+  for (const Sample_over_plane& s : samples) fit.add(s.x[0], s.x[1], value(s), s.weight);
   return fit;
 }
 
@@ -133,14 +155,11 @@ constexpr double largest_bend = 1;
 /// Takes from the samples of a cubic fit with the second derivatives `h` what a surface with that curvature all around
 /// has of fourth order: `(x^T h x)(x^T h^2 x) / 8`, exact on spheres and cylinders. Measured: what is left of the
 /// errors of patches is .2 of them on the sphere and .4 on the torus.
-inline void subtract_fourth_order(Cubic_fit& fit, const Sector_neighborhood& neighbors,
-                                  const std::vector<Vector_3>& points, const Tangent_frame& frame, double radius,
-                                  Jet_fit samples, const Eigen::Matrix2d& h)
+inline void subtract_fourth_order(Cubic_fit& fit, const Samples_over_plane& samples, const Eigen::Matrix2d& h)
 {
-  for (std::size_t i = 0; i < neighbors.size(); ++i) {
-    const Vector_3 d = (points[neighbors[i]] - frame.origin) / radius;
-    const Eigen::Vector2d x(d.dot(frame.x), d.dot(frame.y)), hx = h * x;
-    fit.subtract(x[0], x[1], x.dot(hx) * hx.squaredNorm() / 8, fit_weight(d.squaredNorm(), samples));
+  for (const Sample_over_plane& s : samples) {
+    const Eigen::Vector2d hx = h * s.x;
+    fit.subtract(s.x[0], s.x[1], s.x.dot(hx) * hx.squaredNorm() / 8, s.weight);
   }
 }
 
@@ -153,7 +172,7 @@ enum class Fit_purpose : std::uint8_t { patches, sizes };
 /// The fit over the neighbourhood of a sector with the normal `normal` of Max: of the highest degree that has samples
 /// enough, a normal within 30 degrees of `normal`, and serves its purpose; if there is none, `jet` stays.
 inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first, std::size_t n,
-                          const Vector_3& normal, Jet_fit samples, Fit_purpose purpose, Jet_of_sector& jet)
+                          const Vector_3& normal, Jet_fit kind, Fit_purpose purpose, Jet_of_sector& jet)
 {
   Sector_neighborhood neighbors(mesh, first, n);
   const Plausible_jets plausible(mesh, points, first, n, neighbors);
@@ -161,9 +180,8 @@ inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& po
   const Tangent_frame frame(points[mesh.source(first)], normal);
   const double radius = mean_distance(neighbors, points, frame.origin);
   if (!(radius > 0) || !std::isfinite(1 / radius)) return Fit_degree::none;
-  Cubic_fit fit = fit_over_plane(neighbors, points, frame, radius, samples, [&](Index w) {
-    return (points[w] - frame.origin).dot(normal) / radius;
-  });
+  const Samples_over_plane samples = samples_over_plane(neighbors, points, frame, radius, kind);
+  Cubic_fit fit = fit_of(samples, [](const Sample_over_plane& s) { return s.height; });
   constexpr double largest_squared_slope = 1.0 / 3; // tan(30 degrees)^2
   Derivatives_2 f;
   // second derivatives that the rounding of the coordinates explains are none
@@ -177,11 +195,11 @@ inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& po
     jet = fitted;
     return true;
   };
-  if (samples == Jet_fit::exact) {
+  if (kind == Jet_fit::exact) {
     const Cubic_fit::Solver<9> cubic(fit);
     if (accept(cubic.solve(f))) {
       if (f.hessian.lpNorm<Eigen::Infinity>() > largest_bend) return Fit_degree::cubic;
-      subtract_fourth_order(fit, neighbors, points, frame, radius, samples, f.hessian);
+      subtract_fourth_order(fit, samples, f.hessian);
       accept(cubic.solve(f));
       return Fit_degree::cubic;
     }

@@ -28,7 +28,8 @@ public:
       is_positive_definite_ = lower_(k, k) > 0;
       const double pivot = std::sqrt(lower_(k, k));
       lower_(k, k) = pivot;
-      for (int i = k + 1; i < n; ++i) lower_(i, k) /= pivot;
+      inverse_pivots_[k] = 1 / pivot;
+      for (int i = k + 1; i < n; ++i) lower_(i, k) *= inverse_pivots_[k];
       for (int j = k + 1; j < n; ++j)
         for (int i = j; i < n; ++i) lower_(i, j) -= lower_(i, k) * lower_(j, k);
     }
@@ -47,7 +48,7 @@ public:
   Eigen::Matrix<double, n, m> solve_lower(Eigen::Matrix<double, n, m> b) const
   {
     for (int j = 0; j < n; ++j) {
-      b.row(j) /= lower_(j, j);
+      b.row(j) *= inverse_pivots_[j];
       for (int i = j + 1; i < n; ++i) b.row(i) -= lower_(i, j) * b.row(j);
     }
     return b;
@@ -59,13 +60,14 @@ public:
     Vector x = solve_lower(b);
     for (int i = n - 1; i >= 0; --i) {
       for (int j = i + 1; j < n; ++j) x[i] -= lower_(j, i) * x[j];
-      x[i] /= lower_(i, i);
+      x[i] *= inverse_pivots_[i];
     }
     return x;
   }
 
 private:
   Matrix lower_;
+  Vector inverse_pivots_; // quotients would wait for each other
   bool is_positive_definite_ = true;
 };
 
