@@ -296,11 +296,12 @@ private:
     Vector_3 turned_sides = Vector_3::Zero(); ///< the sum of the weighted sides, each by a quarter turn
     double mass = 0;
 
-    Vector_3 displacement(double share_of_shape) const
+    /// `share` of the way is that to where the faces would be equilateral.
+    Vector_3 displacement(double share) const
     {
       if (!(mass > 0)) return Vector_3::Zero();
       const double height = std::sqrt(3.0) / 2; // of an equilateral triangle
-      return (((1 - share_of_shape) / 3 + share_of_shape / 2) * edges + share_of_shape * height * turned_sides) / mass;
+      return (((1 - share) / 3 + share / 2) * edges + share * height * turned_sides) / mass;
     }
   };
 
