@@ -477,7 +477,7 @@ private:
     const double d = !is_balanced ? to_middle
                                   : std::clamp(0.5 * (to_middle + displacement_along_curve(v, star, tangent)),
                                                0.4 * (std::min)(d0, d1), 0.4 * (std::max)(d0, d1));
-    if (surface_.metrics[v].length(d * tangent) < min_move_) return false;
+    if (!(surface_.metrics[v].length(d * tangent) >= min_move_)) return false;
     const Shape before = shape(star, surface_.vertex(v));
     const double limit = (std::min)(before.worst, good_quality(v));
     for (const double scale : {1.0, 0.5}) {
