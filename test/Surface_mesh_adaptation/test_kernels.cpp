@@ -328,7 +328,8 @@ TEST(Swap, restores_a_triangulation_that_was_scrambled)
   EXPECT_GT(checks::mean_quality(after), 0.94); // the short diagonal gives 0.96, the long one 0.56
 }
 
-/// Vertices `(column, row)` of a tube of so many columns and rows of squares, by their angle and height.
+/// A tube of so many columns and rows of quadrilaterals, cut one way in even rows and the other way in odd ones.
+/// `point(column, row)`.
 template <class Point>
 Soup tube(std::size_t columns, std::size_t rows, const Point& point)
 {

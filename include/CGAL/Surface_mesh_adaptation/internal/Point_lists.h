@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which points each face stands for, or covers: what Represented_points.h and Covered_points.h hand on.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_POINT_LISTS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_POINT_LISTS_H

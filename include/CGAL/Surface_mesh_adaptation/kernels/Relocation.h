@@ -25,6 +25,7 @@
 #include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <type_traits>
@@ -296,6 +297,16 @@ private:
     Vector_3 turned_sides = Vector_3::Zero(); ///< the sum of the weighted sides, each by a quarter turn
     double mass = 0;
 
+    /// Adds a face but for its weighted side, which is returned.
+    Vector_3 add(const Metric& metric, const Neighbor& a, const Neighbor& b, const Vector_3& ea, const Vector_3& eb,
+                 double area)
+    {
+      const double m = face_mass(metric, a.metric, b.metric, ea, eb, area);
+      edges += m * (ea + eb);
+      mass += m;
+      return weighted_side(metric, a.metric, b.metric, eb - ea, area);
+    }
+
     /// `share` of the way is that to where the faces would be equilateral.
     Vector_3 displacement(double share) const
     {
@@ -309,16 +320,11 @@ private:
   Vector_3 displacement_to_center(Index v, const Star& star) const
   {
     const Vector_3 &p = surface_.points[v], &normal = surface_.normals[v];
-    const Metric& metric = surface_.metrics[v];
     Pull pull;
     Vector_3 sides = Vector_3::Zero();
     star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
       const Vector_3 ea = a.point - p, eb = b.point - p;
-      const double area = ea.cross(eb).dot(normal);
-      const double m = face_mass(metric, a.metric, b.metric, ea, eb, area);
-      pull.edges += m * (ea + eb);
-      sides += weighted_side(metric, a.metric, b.metric, eb - ea, area);
-      pull.mass += m;
+      sides += pull.add(surface_.metrics[v], a, b, ea, eb, ea.cross(eb).dot(normal));
     });
     pull.turned_sides = normal.cross(sides);
     const Vector_3 sum = pull.displacement(share_of_shape);
@@ -330,16 +336,11 @@ private:
   double displacement_along_curve(Index v, const Star& star, const Vector_3& tangent) const
   {
     const Vector_3& p = surface_.points[v];
-    const Metric& metric = surface_.metrics[v];
     Pull pull;
     star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
       const Vector_3 ea = a.point - p, eb = b.point - p, across = ea.cross(eb);
       const double area = across.norm();
-      if (!(area > 0)) return;
-      const double m = face_mass(metric, a.metric, b.metric, ea, eb, area);
-      pull.edges += m * (ea + eb);
-      pull.turned_sides += (across / area).cross(weighted_side(metric, a.metric, b.metric, eb - ea, area));
-      pull.mass += m;
+      if (area > 0) pull.turned_sides += (across / area).cross(pull.add(surface_.metrics[v], a, b, ea, eb, area));
     });
     return pull.displacement(share_of_shape_on_curves).dot(tangent);
   }
@@ -416,14 +417,14 @@ private:
     });
   }
 
-  /// Metric length of the longer of the two curve edges of `v` if it is moved to `p`; 0 if it lies on none.
-  double longest_on_curve(Index v, const Placed_vertex<Metric>& p) const
+  /// Metric length of the longer edge from `p` to those of `ends` that there are; 0 if there are none.
+  double longest_edge(const Placed_vertex<Metric>& p, const std::array<Index, 2>& ends) const
   {
-    const auto length_to = [&](Index w) {
-      return w == no_index ? 0 : edge_length(p.metric, surface_.metrics[w], surface_.points[w] - p.point);
-    };
-    const Index w = next_on_curve(surface_, v, no_index);
-    return w == no_index ? 0 : (std::max)(length_to(w), length_to(next_on_curve(surface_, v, w)));
+    double longest = 0;
+    for (const Index w : ends)
+      if (w != no_index)
+        longest = (std::max)(longest, edge_length(p.metric, surface_.metrics[w], surface_.points[w] - p.point));
+    return longest;
   }
 
   /// Moves `v` to where its worst face is better, if it has a bad one.
@@ -438,7 +439,8 @@ private:
     double radius = 0;
     for (const Neighbor& n : star.ring) radius += start.metric.length(n.point - start.point) / double(star.ring.size());
     // thin faces between two curves would empty parts of these
-    const double longest = (std::max)(balanced_length, longest_on_curve(v, start));
+    const std::array<Index, 2> on_curve = neighbors_on_curve(surface_, v);
+    const double longest = (std::max)(balanced_length, longest_edge(start, on_curve));
     Placed_vertex<Metric> best = start;
     minimize_worst(
       best, max_step * radius, max_optimization_rounds, 1 / enough,
@@ -446,7 +448,7 @@ private:
       [&](const Placed_vertex<Metric>& x, const Vector_2& d) { return moved(x, d); },
       [&](const Placed_vertex<Metric>& x) {
         const Shape s = shape(star, x);
-        const bool is_allowed = s.worst > 0 && longest_on_curve(v, x) <= longest &&
+        const bool is_allowed = s.worst > 0 && longest_edge(x, on_curve) <= longest &&
                                 s.alignment >= (std::min)(thresholds_.least_alignment, before.alignment) &&
                                 !is_turned(star, start.point, x.point);
         return is_allowed ? 1 / s.worst : std::numeric_limits<double>::infinity();
@@ -462,8 +464,7 @@ private:
   bool slide(Index v, const Star& star, Attempt<StandsStill>& attempt)
   {
     const Index curve = surface_.locations[v].cell;
-    const Index w1 = next_on_curve(surface_, v, no_index);
-    const Index w0 = w1 == no_index ? no_index : next_on_curve(surface_, v, w1);
+    const auto [w1, w0] = neighbors_on_curve(surface_, v);
     if (w0 == no_index) return false;
     const auto arc0 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[w0]);
     const auto arc1 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[w1]);

@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 
 #include <algorithm>
+#include <array>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -59,6 +60,14 @@ Index next_on_curve(const Surface& surface, Index v, Index from)
   return next;
 }
 
+/// The two neighbours of `v` along its curve; `no_index` for those that there are not.
+template <class Surface>
+std::array<Index, 2> neighbors_on_curve(const Surface& surface, Index v)
+{
+  const Index a = next_on_curve(surface, v, no_index);
+  return {a, a == no_index ? no_index : next_on_curve(surface, v, a)};
+}
+
 /// Adds up to `n` edges that follow the one from `a` to `b`, but none that starts at `end` or at a vertex that
 /// `may_pass` forbids. (On a closed curve of a few edges, some are found from both sides.)
 template <class Surface, class MayPass>
@@ -97,8 +106,7 @@ bool is_split_on_curve(const Surface& surface, Index h)
 template <class Surface, class MayPass>
 bool is_collapsed_on_curve(const Surface& surface, Index v, const MayPass& may_pass)
 {
-  const Index a = next_on_curve(surface, v, no_index);
-  const Index b = a == no_index ? no_index : next_on_curve(surface, v, a);
+  const auto [a, b] = neighbors_on_curve(surface, v);
   if (b == no_index) return false;
   Curve_window window;
   add_edges_behind(surface, b, v, b, 1 + curve_reach, may_pass, window);
