@@ -14,6 +14,7 @@
 #include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
 #include <CGAL/Surface_mesh_adaptation/patch_fallbacks.h>
 #include <CGAL/Surface_mesh_adaptation/refine.h>
+#include <CGAL/Surface_mesh_adaptation/regularize.h>
 #include <CGAL/Surface_mesh_adaptation/relocate.h>
 #include <CGAL/Surface_mesh_adaptation/simplify.h>
 #include <CGAL/Surface_mesh_adaptation/surface_distance.h>

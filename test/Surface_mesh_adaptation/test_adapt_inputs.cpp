@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -309,7 +310,7 @@ struct Stopping_visitor : SMA::Adaptation_visitor
   void round_begins(std::size_t round, std::size_t) { EXPECT_EQ(round, rounds_begun++); }
   void kernel_done(const SMA::Kernel_report& k)
   {
-    const std::set<std::string> names = {"refine", "simplify", "swap", "relocate"};
+    const std::set<std::string> names = {"refine", "simplify", "swap", "regularize", "relocate"};
     EXPECT_EQ(names.count(k.kernel), 1u) << k.kernel;
     EXPECT_EQ(k.round + 1, rounds_begun);
     EXPECT_EQ(rounds_done, k.round);
@@ -320,6 +321,16 @@ struct Stopping_visitor : SMA::Adaptation_visitor
   bool go_on() { return kernels < stop_after; }
 };
 
+/// Each kernel has one row for each round, but for regularization, which not all rounds need.
+void expect_a_row_for_each_kernel_and_round(const SMA::Adaptation_report& report)
+{
+  std::map<std::string, std::set<std::size_t>> rounds;
+  for (const SMA::Kernel_report& k : report.kernels) EXPECT_TRUE(rounds[k.kernel].insert(k.round).second) << k.kernel;
+  EXPECT_EQ(rounds.size(), 5u);
+  rounds.erase("regularize");
+  for (const auto& [kernel, of_kernel] : rounds) EXPECT_EQ(of_kernel.size(), report.rounds) << kernel;
+}
+
 TEST(Visitor, follows_the_run)
 {
   Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(3));
@@ -328,7 +339,7 @@ TEST(Visitor, follows_the_run)
   EXPECT_EQ(visitor.rounds_begun, report.rounds);
   EXPECT_EQ(visitor.rounds_done, report.rounds);
   EXPECT_GE(visitor.kernels, 4 * report.rounds);
-  EXPECT_EQ(report.kernels.size(), 4 * report.rounds); // one row for each kernel and round
+  expect_a_row_for_each_kernel_and_round(report);
 }
 
 TEST(Visitor, follows_the_rounds_that_meet_a_number_of_vertices)
@@ -339,7 +350,7 @@ TEST(Visitor, follows_the_rounds_that_meet_a_number_of_vertices)
   Stopping_visitor visitor;
   const auto report = SMA::adapt_surface_mesh(mesh, field, params::visitor(std::ref(visitor)));
   EXPECT_EQ(visitor.rounds_done, report.rounds);
-  EXPECT_EQ(report.kernels.size(), 4 * report.rounds);
+  expect_a_row_for_each_kernel_and_round(report);
 }
 
 TEST(Visitor, that_stops_leaves_a_valid_mesh)

@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/metric.h>
 #include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
 #include <CGAL/Surface_mesh_adaptation/refine.h>
+#include <CGAL/Surface_mesh_adaptation/regularize.h>
 #include <CGAL/Surface_mesh_adaptation/relocate.h>
 #include <CGAL/Surface_mesh_adaptation/simplify.h>
 #include <CGAL/Surface_mesh_adaptation/swap.h>
@@ -40,12 +41,21 @@ struct Kernel
   std::function<std::size_t(Mesh&, const SMA::Uniform_metric_field&)> run;
 };
 
+/// The shapes are regular: their edges are split first.
+template <class... Arguments>
+std::size_t refine_and_regularize(Arguments&&... arguments)
+{
+  SMA::refine(arguments...);
+  return SMA::regularize(arguments...);
+}
+
 std::vector<Kernel> kernels()
 {
   return {{"refine", 0.3, [](Mesh& m, const auto& field) { return SMA::refine(m, field); }},
           {"simplify", 2, [](Mesh& m, const auto& field) { return SMA::simplify(m, field); }},
           {"swap", 1, [](Mesh& m, const auto& field) { return SMA::swap(m, field); }},
-          {"relocate", 1, [](Mesh& m, const auto& field) { return SMA::relocate(m, field); }}};
+          {"relocate", 1, [](Mesh& m, const auto& field) { return SMA::relocate(m, field); }},
+          {"regularize", 0.6, [](Mesh& m, const auto& field) { return refine_and_regularize(m, field); }}};
 }
 
 /// A surface of which the normal is known between its ridges.
@@ -144,6 +154,7 @@ TEST_P(Kernels, keep_the_ridges_of_a_capped_cylinder)
   if (std::string(kernel_.name) == "simplify") SMA::simplify(mesh, SMA::Uniform_metric_field(size), np);
   if (std::string(kernel_.name) == "swap") SMA::swap(mesh, SMA::Uniform_metric_field(size), np);
   if (std::string(kernel_.name) == "relocate") SMA::relocate(mesh, SMA::Uniform_metric_field(size), np);
+  if (std::string(kernel_.name) == "regularize") refine_and_regularize(mesh, SMA::Uniform_metric_field(size), np);
 
   ASSERT_TRUE(checks::is_manifold(shapes::soup(mesh)));
   const double chord_error = 1 - std::cos(shapes::pi / double(around));
@@ -187,6 +198,7 @@ TEST_P(Kernels, give_the_same_bits_with_every_policy)
     if (std::string(kernel_.name) == "simplify") SMA::simplify(execution, mesh, field);
     if (std::string(kernel_.name) == "swap") SMA::swap(execution, mesh, field);
     if (std::string(kernel_.name) == "relocate") SMA::relocate(execution, mesh, field);
+    if (std::string(kernel_.name) == "regularize") refine_and_regularize(execution, mesh, field);
     const Soup after = shapes::soup(mesh);
     if (first.points.empty()) first = after;
     EXPECT_TRUE(checks::is_identical(after, first)) << name;
@@ -200,7 +212,9 @@ TEST_P(Kernels, stop_when_nothing_is_left_to_do)
   const Soup before = shapes::sphere(3, 0.5);
   const SMA::Uniform_metric_field field(kernel_.size * before.mean_edge_length());
   Mesh mesh = shapes::mesh<Mesh>(before);
-  const std::size_t first = kernel_.run(mesh, field), second = kernel_.run(mesh, field);
+  const bool is_refined = std::string(kernel_.name) == "regularize";
+  const std::size_t first = kernel_.run(mesh, field);
+  const std::size_t second = is_refined ? SMA::regularize(mesh, field) : kernel_.run(mesh, field);
   EXPECT_LE(second, first / 5);
 }
 
@@ -224,7 +238,7 @@ TEST_P(Kernels, survive_hostile_shapes)
 
 std::string name_of_kernel(const ::testing::TestParamInfo<std::size_t>& i) { return kernels()[i.param].name; }
 
-INSTANTIATE_TEST_SUITE_P(Alone, Kernels, ::testing::Range(std::size_t(0), std::size_t(4)), name_of_kernel);
+INSTANTIATE_TEST_SUITE_P(Alone, Kernels, ::testing::Range(std::size_t(0), kernels().size()), name_of_kernel);
 
 // What each is for
 
@@ -379,6 +393,99 @@ TEST(Swap, gives_ridges_three_faces_on_each_side)
     }
   EXPECT_EQ(inside, 8 * int(rows - 1));
   EXPECT_GT(balanced, 0.8 * inside); // none before
+}
+
+/// Of a mesh of the plane: the numbers of edges at the vertices that are not on its boundary.
+std::map<std::size_t, std::size_t> inner_degrees(const Mesh& mesh)
+{
+  std::map<std::size_t, std::size_t> count;
+  for (const auto v : mesh.vertices())
+    if (!mesh.is_border(v)) ++count[mesh.degree(v)];
+  return count;
+}
+
+/// A lattice of equilateral triangles of side 1 over a parallelogram, from (0, 0) to the right and up to the right.
+Mesh lattice(std::size_t n)
+{
+  Soup soup;
+  for (std::size_t j = 0; j <= n; ++j)
+    for (std::size_t i = 0; i <= n; ++i)
+      soup.points.emplace_back(double(i) + double(j) / 2, double(j) * std::sqrt(3.0) / 2, 0);
+  const auto vertex = [&](std::size_t i, std::size_t j) { return Index(j * (n + 1) + i); };
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i) {
+      soup.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i, j + 1)});
+      soup.triangles.push_back({vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+    }
+  return shapes::mesh<Mesh>(soup);
+}
+
+TEST(Regularize, does_nothing_to_a_lattice)
+{
+  Mesh mesh = lattice(12);
+  ASSERT_EQ(inner_degrees(mesh).size(), 1u);
+  EXPECT_EQ(SMA::regularize(mesh, SMA::Uniform_metric_field(1)), 0u);
+}
+
+TEST(Regularize, moves_a_vertex_from_where_it_is_too_many_to_where_one_is_missing)
+{
+  Mesh mesh = lattice(16);
+  const auto halfedge_at = [&](double x, double y) {
+    const auto distance = [&](auto h) { return CGAL::squared_distance(mesh.point(mesh.target(h)), Mesh::Point(x, y, 0)); };
+    return *std::min_element(mesh.halfedges().begin(), mesh.halfedges().end(),
+                             [&](auto g, auto h) { return distance(g) < distance(h); });
+  };
+  const auto middle = [](const auto& p, const auto& q) { return CGAL::midpoint(p, q); };
+  auto h = halfedge_at(8, 4);
+  const auto between = middle(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)));
+  const auto opposite = mesh.opposite(h);
+  const auto split = CGAL::Euler::split_edge(h, mesh);
+  mesh.point(mesh.target(split)) = between;
+  CGAL::Euler::split_face(split, mesh.next(mesh.next(split)), mesh);
+  CGAL::Euler::split_face(opposite, mesh.next(mesh.next(opposite)), mesh);
+  h = halfedge_at(14, 10);
+  CGAL::Euler::collapse_edge(mesh.edge(h), mesh);
+  mesh.collect_garbage();
+  ASSERT_TRUE(CGAL::is_triangle_mesh(mesh));
+  const std::size_t vertices = mesh.number_of_vertices();
+  const std::map<std::size_t, std::size_t> before = inner_degrees(mesh);
+  ASSERT_EQ(before.at(4), 1u);
+  ASSERT_EQ(before.at(8), 1u);
+
+  EXPECT_EQ(SMA::regularize(mesh, SMA::Uniform_metric_field(1)), 2u);
+
+  EXPECT_EQ(mesh.number_of_vertices(), vertices);
+  EXPECT_EQ(inner_degrees(mesh).size(), 1u); // all six
+  EXPECT_EQ(inner_degrees(mesh).begin()->first, 6u);
+  ASSERT_TRUE(checks::is_manifold(shapes::soup(mesh)));
+  EXPECT_GT(checks::least_area(shapes::soup(mesh), [](const Vector_3&) { return Vector_3(0, 0, 1); }), 0);
+}
+
+TEST(Regularize, makes_an_adapted_mesh_more_regular_than_swaps_can)
+{
+  const Soup before = shapes::torus(48, 24, 0.25);
+  Mesh mesh = shapes::mesh<Mesh>(before);
+  const SMA::Uniform_metric_field field(0.4 * before.mean_edge_length());
+  const auto irregular_share = [&] {
+    return 1 - double(inner_degrees(mesh)[6]) / double(mesh.number_of_vertices());
+  };
+  const auto adapt = [&] {
+    SMA::refine(mesh, field);
+    for (int i = 0; i < 4; ++i) {
+      SMA::simplify(mesh, field);
+      SMA::swap(mesh, field);
+      SMA::relocate(mesh, field);
+    }
+  };
+  adapt();
+  const double by_swaps = irregular_share();
+  for (int i = 0; i < 3; ++i) {
+    SMA::regularize(mesh, field);
+    SMA::swap(mesh, field);
+    SMA::relocate(mesh, field);
+  }
+  EXPECT_LT(irregular_share(), 0.8 * by_swaps);
+  EXPECT_GT(checks::mean_quality(shapes::soup(mesh)), 0.97);
 }
 
 TEST(Relocate, moves_balanced_curves_to_where_the_faces_are_equilateral)

@@ -199,6 +199,65 @@ TEST(Mesh_view, is_as_it_was_after_a_flip_there_and_back)
   });
 }
 
+/// The edges between the ends of which a vertex may be put, as halfedges that leave an inner vertex.
+std::vector<Index> splittable_edges(const Mesh_view& m)
+{
+  std::vector<Index> result;
+  for (Index h = 0; h < m.number_of_halfedges(); ++h)
+    if (!m.is_removed_face(Mesh_view::face(h)) && !m.is_border(h) && !m.is_feature(h) && !m.is_border_vertex(m.source(h)))
+      result.push_back(h);
+  return result;
+}
+
+/// Splits the edge of `h` with new elements at the end.
+Index split(Mesh_view& m, Index h)
+{
+  const Index v = Index(m.number_of_vertices()), f = Index(m.number_of_faces());
+  m.outgoing.resize(v + 1);
+  for (auto* table : {&m.corner, &m.twin, &m.curve}) table->resize(3 * (f + 2));
+  m.split_edge(h, v, f, f + 1);
+  return v;
+}
+
+Index curve_of(const Mesh_view& m, Index v, Index w)
+{
+  const Index h = m.halfedge(v, w);
+  return m.curve[h != SMA::no_index ? h : m.halfedge(w, v)];
+}
+
+TEST(Mesh_view, is_as_it_was_after_a_split_is_collapsed)
+{
+  std::size_t splits = 0;
+  for_many_views(10, [&](Mesh_view& m, Random& random) {
+    add_features(m, 0.1, random);
+    std::size_t n = 0;
+    const Topology before = checks::topology(m);
+    const auto triangles_before = checks::live_triangles(m, n);
+    for (const Index h : splittable_edges(m)) {
+      const std::vector<Index> corners = four_vertices(m, h);
+      Mesh_view m2 = m;
+      const Index v = split(m2, h);
+      ASSERT_TRUE(checks::is_valid(m2));
+      ASSERT_EQ(checks::topology(m2), before);
+      ASSERT_EQ(m2.degree(v), 4u);
+      for (const Index c : corners) ASSERT_TRUE(m2.are_adjacent(v, c));
+      for (std::size_t end : {0, 1})
+        for (std::size_t side : {2, 3})
+          ASSERT_EQ(curve_of(m2, corners[end], corners[side]), curve_of(m, corners[end], corners[side]));
+      ASSERT_FALSE(m2.are_adjacent(corners[0], corners[1]));
+      const Mesh_view::Directed_edge back{m2.halfedge(v, corners[0]), true};
+      if (!m2.is_collapsible(back)) continue; // where a vertex has three neighbours only
+      m2.collapse(back);
+      ASSERT_TRUE(checks::is_valid(m2));
+      ASSERT_EQ(checks::topology(m2), before);
+      ASSERT_TRUE(m2.are_adjacent(corners[0], corners[1]));
+      ASSERT_EQ(checks::live_triangles(m2, n).size(), triangles_before.size());
+      ++splits;
+    }
+  });
+  EXPECT_GT(splits, 1000u);
+}
+
 TEST(Mesh_view, stays_a_manifold_under_any_collapse_that_it_allows)
 {
   std::size_t allowed = 0;
@@ -279,6 +338,11 @@ TEST(Independence, of_collapses_with_disjoint_closed_rings)
 TEST(Independence, of_flips_with_disjoint_vertices)
 {
   EXPECT_GT(apply_independent_sets(flippable_edges, four_vertices, [](Mesh_view& m, Index h) { m.flip(h); }), 10000u);
+}
+
+TEST(Independence, of_splits_with_disjoint_vertices)
+{
+  EXPECT_GT(apply_independent_sets(splittable_edges, four_vertices, [](Mesh_view& m, Index h) { split(m, h); }), 10000u);
 }
 
 /// With claims that are too small something must break, else the two tests above prove nothing.

@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Refinement.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Regularization.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Relocation.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Simplification.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Swapping.h>
@@ -32,7 +33,8 @@ public:
     : execution_(execution), surface_(surface), visitor_(visitor)
     , refinement_(execution, surface, weighed<Refinement_thresholds>())
     , simplification_(execution, surface, weighed<Simplification_thresholds>())
-    , swapping_(execution, surface, swapping_thresholds()), relocation_(execution, surface, {})
+    , swapping_(execution, surface, swapping_thresholds()), regularization_(execution, surface, {})
+    , relocation_(execution, surface, {})
   {}
 
   /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, a few more in a scaled metric,
@@ -41,7 +43,8 @@ public:
   {
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
-    relocation_.expect_adapted(report_.initial.in_range > adapted_share);
+    is_adapted_ = report_.initial.in_range > adapted_share;
+    relocation_.expect_adapted(is_adapted_);
     find_work();
     do_rounds(rounds, report_.initial);
     if (number_of_vertices > 0) meet_number(number_of_vertices);
@@ -72,11 +75,13 @@ private:
   }
 
   /// Every vertex may have to move, but collapses and swaps need a short edge, a bad face or a curve: on a mesh that is
-  /// adapted already there are few.
+  /// adapted already there are few. Such a mesh is not regularized either, which would change it all over.
   void find_work()
   {
     const Mesh_view& mesh = surface_.mesh;
-    fill(execution_, surface_.active, mesh.number_of_vertices(), std::uint8_t(Activity::relocate));
+    const std::uint8_t everywhere =
+      std::uint8_t(std::uint8_t(Activity::relocate) | (is_adapted_ ? 0 : std::uint8_t(Activity::regularize)));
+    fill(execution_, surface_.active, mesh.number_of_vertices(), everywhere);
     for_each_index(execution_, mesh.number_of_faces(), [&](std::size_t f) {
       if (mesh.is_removed_face(Index(f))) return;
       const std::array<Index, 3> v{mesh.corner[3 * f], mesh.corner[3 * f + 1], mesh.corner[3 * f + 2]};
@@ -136,6 +141,7 @@ private:
   /// At most `rounds`, while they gain something on `before`.
   void do_rounds(std::size_t rounds, Mesh_statistics before)
   {
+    is_irregular_ = true;
     for (std::size_t i = 0; i < rounds && !report_.stopped; ++i) {
       visitor_.round_begins(round_, round_ + rounds - i);
       do_round();
@@ -157,6 +163,7 @@ private:
     };
     const auto simplify = [&](Sweep_counts& c) { return simplification_.sweep(c); };
     const auto swap = [&](Sweep_counts& c) { return swapping_.sweep(c); };
+    const auto regularize = [&](Sweep_counts& c) { return regularization_.sweep(c); };
     const auto relocate = [&](Sweep_counts& c) { return relocation_.sweep(c); };
 
     // Short edges go first: splitting the long ones beside them would multiply what is removed afterwards. And long
@@ -171,6 +178,11 @@ private:
     }
     run_kernel("simplify", max_simplify_sweeps, simplify);
     run_kernel("swap", max_swap_sweeps, swap);
+    if (is_irregular_ && round_ > 0) {
+      const std::size_t regularized = run_kernel("regularize", max_regularize_sweeps, regularize);
+      is_irregular_ = regularized > negligible(regularized_share);
+      if (regularized > 0) run_kernel("swap", max_swap_sweeps, swap);
+    }
     run_kernel("relocate", max_relocate_sweeps, relocate);
   }
 
@@ -223,10 +235,12 @@ private:
   static constexpr std::size_t max_refine_sweeps = 24;   // each halves the edges
   static constexpr std::size_t max_simplify_sweeps = 12;
   static constexpr std::size_t max_swap_sweeps = 4;
+  static constexpr std::size_t max_regularize_sweeps = 3;
   static constexpr std::size_t max_relocate_sweeps = 2;
   static constexpr double negligible_share = 0.004;
   static constexpr double refine_share = 0.01;           // a sweep rewrites the mesh, even for a single edge, so
   static constexpr double first_refine_share = 0.0015;   // a few edges wait for the first sweep of the next round
+  static constexpr double regularized_share = 0.007;     // once there is less to do, rounds just let the mesh settle
   static constexpr int max_corrections = 8;              // of the metric, for a number of vertices
   static constexpr double largest_scale = 1.2;           // of the metric meanwhile, its logarithm: lengths by 1.8
   static constexpr double budget_precision = 0.03;
@@ -240,9 +254,12 @@ private:
   Refinement<Surface, Execution> refinement_;
   Simplification<Surface, Execution> simplification_;
   Swapping<Surface, Execution> swapping_;
+  Regularization<Surface, Execution> regularization_;
   Relocation<Surface, Execution> relocation_;
   Adaptation_report report_;
   std::size_t round_ = 0;
+  bool is_adapted_ = false;  // from the beginning
+  bool is_irregular_ = true; // so much that it is worth to go on with regularization
 };
 
 } // namespace Surface_mesh_adaptation

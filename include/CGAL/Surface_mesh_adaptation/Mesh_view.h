@@ -152,6 +152,26 @@ public:
     if (outgoing[a] == tp) outgoing[a] = tn;
   }
 
+  /// Puts the vertex `m` on the edge of `h`, from `p` to `x` between `a` on the right and `b` on the left: its two faces keep
+  /// `x`, and the faces `f`, which is `(p, a, m)`, and `g`, which is `(p, m, b)`, are new.
+  /// Writes these four, the twins of the two edges at `p`, and the `outgoing` of `p` and `m`.
+  /// \pre the edge is no feature, `p` is not on the boundary, and `m`, `f` and `g` are holes
+  void split_edge(Index h, Index m, Index f, Index g)
+  {
+    const Index from = next(twin[h]), to = rotated_ccw(h), p = corner[h], a = target(from), b = apex(h);
+    const Index behind_a = twin[from], arriving_b = twin[to], curve_a = curve[from], curve_b = curve[to];
+    corner[h] = corner[from] = m;
+    corner[3 * f] = p; corner[3 * f + 1] = a; corner[3 * f + 2] = m;
+    corner[3 * g] = p; corner[3 * g + 1] = m; corner[3 * g + 2] = b;
+    glue(3 * f, behind_a, curve_a);
+    glue(3 * f + 1, from, no_curve);
+    glue(3 * f + 2, 3 * g, no_curve);
+    glue(3 * g + 1, arriving_b, no_curve);
+    glue(3 * g + 2, to, curve_b);
+    outgoing[p] = to;
+    outgoing[m] = h;
+  }
+
   /// An edge with the direction in which it is to be collapsed. `h` is any halfedge of the edge; a boundary edge has
   /// only one, so the vertex that vanishes may be its source or its target.
   struct Directed_edge

@@ -67,6 +67,13 @@ public:
     return local.applied;
   }
 
+  /// Whether `e`, of whatever length, may be collapsed while nothing else changes.
+  bool is_allowed(const Mesh_view::Directed_edge& e) const
+  {
+    bool is_put_off = false;
+    return is_valid(e, star(mesh_.vanishing_vertex(e)), [](Index) { return true; }, is_put_off);
+  }
+
   void apply(const Mesh_view::Directed_edge& e)
   {
     const Index s = mesh_.vanishing_vertex(e);

@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/degrees.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>
@@ -177,29 +178,12 @@ private:
     counts.applied += winners.size();
   }
 
-  /// Change of the sum of squared deviations from the ideal numbers of faces around the four vertices: 6, or 3 on each
-  /// side of a curve. What is ideal at a corner depends on its angles.
+  /// Change of the sum of the squares by which the numbers of faces around the four vertices differ from the ideal ones.
   int degree_change(Index h) const
   {
-    const auto change = [&](Index outgoing, int by) {
-      const Index v = mesh_.source(outgoing);
-      const Vertex_class kind = surface_.vertex_class(v);
-      if (kind == Vertex_class::corner) return 0;
-      const int excess = kind == Vertex_class::smooth ? int(mesh_.degree(v)) - 6 : faces_beside_curve(outgoing) - 3;
-      return (excess + by) * (excess + by) - excess * excess;
-    };
     const Index t = mesh_.twin[h];
+    const auto change = [&](Index leaving, int by) { return excess_of_faces(surface_, leaving).squared_change(by); };
     return change(h, -1) + change(t, -1) + change(Mesh_view::previous(h), 1) + change(Mesh_view::previous(t), 1);
-  }
-
-  /// The number of faces around the source of `h` on the side of its curve that `h` is on.
-  int faces_beside_curve(Index h) const
-  {
-    int n = 1;
-    for (Index g = h; !mesh_.is_feature(g); ++n)
-      if ((g = mesh_.rotated_cw(g)) == h) return n;
-    for (Index g = h; !mesh_.is_feature(Mesh_view::previous(g)); ++n) g = mesh_.rotated_ccw(g);
-    return n;
   }
 
   bool is_valid(Index h) const

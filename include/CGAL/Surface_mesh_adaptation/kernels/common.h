@@ -17,7 +17,7 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 
 /// A bit for each kernel in `Adapted_surface::active`: whether it has to look at the vertex again.
-enum class Activity : std::uint8_t { simplify = 1, swap = 2, relocate = 4 };
+enum class Activity : std::uint8_t { simplify = 1, swap = 2, relocate = 4, regularize = 8 };
 
 /// Least cosine between two faces at a smooth edge that an operation may create, unless it mends a sharper one.
 constexpr double min_fold = 0.0;
