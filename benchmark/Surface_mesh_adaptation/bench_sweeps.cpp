@@ -76,7 +76,7 @@ void print_kernels(const Run& run)
 {
   std::printf("  %-10s %6s %10s %10s %10s %8s %12s %22s\n", "kernel", "sweeps", "candidates", "applied", "deferred",
               "seconds", "us/vertex", "us/vertex and sweep");
-  for (const char* name : {"refine", "simplify", "swap", "relocate"}) {
+  for (const char* name : {"refine", "simplify", "swap", "regularize", "relocate"}) {
     SMA::Kernel_report sum;
     for (const SMA::Kernel_report& k : run.report.kernels)
       if (k.kernel == name) {

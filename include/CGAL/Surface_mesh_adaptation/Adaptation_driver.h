@@ -178,7 +178,7 @@ private:
     }
     run_kernel("simplify", max_simplify_sweeps, simplify);
     run_kernel("swap", max_swap_sweeps, swap);
-    if (is_irregular_ && round_ > 0) {
+    if (!is_anisotropic && is_irregular_ && round_ > 0) { // in others it gains less than it costs
       const std::size_t regularized = run_kernel("regularize", max_regularize_sweeps, regularize);
       is_irregular_ = regularized > negligible(regularized_share);
       if (regularized > 0) run_kernel("swap", max_swap_sweeps, swap);

@@ -6,7 +6,7 @@
 // or goes: then two of them meet, and cancel out.
 //
 // A vertex is taken away by a collapse, and put into the hole that two to four faces leave. It takes the number of one
-// that is gone, so in all there are no more vertices afterwards.
+// that is gone from near by, so in all there are no more vertices afterwards.
 //
 // Conflict neighbourhood: the closed one-ring of a vertex that vanishes; the corners of the faces that make place.
 // Each operation lowers the sum of the squares of excess faces, so sweeps end. Invariants: as simplification; features
@@ -26,6 +26,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -90,7 +91,7 @@ private:
 
   std::vector<Operation> propose()
   {
-    return gather<Operation>(execution_, mesh_.number_of_vertices(), heavy_chunk_length,
+    return gather<Operation>(execution_, mesh_.number_of_vertices(), block_length,
                              [&](std::size_t begin, std::size_t end, std::vector<Operation>& list) {
       for (std::size_t v = begin; v < end; ++v) {
         if (mesh_.is_removed_vertex(Index(v)) || !is_active(surface_, Index(v), Activity::regularize)) continue;
@@ -318,27 +319,70 @@ private:
     return chosen.size();
   }
 
-  /// As many insertions as vertices are gone, evenly from all over the surface.
   std::size_t insert(const std::vector<Operation>& operations, const std::vector<std::uint32_t>& winners)
   {
     const auto chosen = pack(execution_, winners.size(), [&](std::size_t i) {
       return !operations[winners[i]].is_collapse;
     });
-    if (chosen.empty()) return 0;
+    const auto insertion = [&](std::size_t i) -> const Operation& { return operations[winners[chosen[i]]]; };
     const auto vertices = pack(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
       return mesh_.is_removed_vertex(Index(v));
     });
     const auto faces = pack(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
       return mesh_.is_removed_face(Index(f));
     });
-    const std::size_t n = (std::min)({chosen.size(), vertices.size(), faces.size() / 2});
-    std::vector<std::uint8_t> is_done(n);
-    for_each_index(execution_, n, [&](std::size_t i) {
-      is_done[i] = apply(operations[winners[chosen[i * chosen.size() / n]]], vertices[i * vertices.size() / n],
-                         faces[2 * i], faces[2 * i + 1]);
+    const std::vector<std::uint32_t> holes =
+      holes_near(vertices, chosen.size(), [&](std::size_t i) { return mesh_.source(insertion(i).h); });
+    std::vector<std::uint8_t> is_done(chosen.size(), 0);
+    for_each_index(execution_, chosen.size(), [&](std::size_t i) {
+      const std::size_t hole = holes[i]; // two faces are gone with a vertex
+      if (2 * hole + 1 < faces.size())
+        is_done[i] = apply(insertion(i), vertices[hole], faces[2 * hole], faces[2 * hole + 1]);
     }, heavy_chunk_length);
-    return count_if(execution_, n, [&](std::size_t i) { return is_done[i] != 0; });
+    return count_if(execution_, is_done.size(), [&](std::size_t i) { return is_done[i] != 0; });
   }
+
+  /// For each of `n` vertices, given by `vertex(i)` in increasing order, the position of a hole of its own: the nearest one
+  /// in its range of numbers, for what is far from its neighbours in memory makes all sweeps slower. `no_index` if there
+  /// is none.
+  template <class Vertex>
+  std::vector<std::uint32_t> holes_near(const std::vector<std::uint32_t>& holes, std::size_t n, const Vertex& vertex) const
+  {
+    std::vector<std::uint32_t> chosen(n, no_index);
+    std::vector<std::uint8_t> is_taken(holes.size(), 0);
+    for_each_index(execution_, number_of_chunks(mesh_.number_of_vertices(), range_of_holes), [&](std::size_t range) {
+      const auto first_hole = [&](std::size_t r) {
+        return std::size_t(std::lower_bound(holes.begin(), holes.end(), r * range_of_holes) - holes.begin());
+      };
+      const std::size_t begin = first_hole(range), end = first_hole(range + 1);
+      if (begin == end) return;
+      for (std::size_t i = first_in(range, n, vertex); i < n && vertex(i) / range_of_holes == range; ++i) {
+        std::size_t nearest = end;
+        for (std::size_t k = begin; k < end; ++k)
+          if (!is_taken[k] && (nearest == end || distance(holes[k], vertex(i)) < distance(holes[nearest], vertex(i))))
+            nearest = k;
+        if (nearest == end) return;
+        is_taken[nearest] = 1;
+        chosen[i] = std::uint32_t(nearest);
+      }
+    }, 1);
+    return chosen;
+  }
+
+  /// The first `i` with a `vertex(i)` in the range or behind it.
+  template <class Vertex>
+  static std::size_t first_in(std::size_t range, std::size_t n, const Vertex& vertex)
+  {
+    std::size_t begin = 0, end = n;
+    while (begin < end) {
+      const std::size_t middle = (begin + end) / 2;
+      if (vertex(middle) < range * range_of_holes) begin = middle + 1;
+      else end = middle;
+    }
+    return begin;
+  }
+
+  static Index distance(Index a, Index b) { return a < b ? b - a : a - b; }
 
   /// Gives the new vertex the number `m` and the two new faces `f` and `g`, unless that makes a bad face.
   bool apply(const Operation& insertion, Index m, Index f, Index g)
@@ -362,6 +406,7 @@ private:
     return true;
   }
 
+  static constexpr std::size_t range_of_holes = 4 * block_length; // shorter ones lack holes where others have too many
   static constexpr double precision = 0.1; // of a location, of the way there: later moves undo the rest
 
   const Execution& execution_;
