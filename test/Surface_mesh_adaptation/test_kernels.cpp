@@ -435,9 +435,8 @@ TEST(Regularize, moves_a_vertex_from_where_it_is_too_many_to_where_one_is_missin
     return *std::min_element(mesh.halfedges().begin(), mesh.halfedges().end(),
                              [&](auto g, auto h) { return distance(g) < distance(h); });
   };
-  const auto middle = [](const auto& p, const auto& q) { return CGAL::midpoint(p, q); };
   auto h = halfedge_at(8, 4);
-  const auto between = middle(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)));
+  const auto between = CGAL::midpoint(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)));
   const auto opposite = mesh.opposite(h);
   const auto split = CGAL::Euler::split_edge(h, mesh);
   mesh.point(mesh.target(split)) = between;

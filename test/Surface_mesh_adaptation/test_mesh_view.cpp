@@ -345,7 +345,7 @@ TEST(Independence, of_splits_with_disjoint_vertices)
   EXPECT_GT(apply_independent_sets(splittable_edges, four_vertices, [](Mesh_view& m, Index h) { split(m, h); }), 10000u);
 }
 
-/// With claims that are too small something must break, else the two tests above prove nothing.
+/// With claims that are too small something must break, else the tests of collapses and flips above prove nothing.
 TEST(Independence, needs_the_whole_neighbourhood)
 {
   std::size_t broken_by_collapses = 0, broken_by_flips = 0;

@@ -23,7 +23,8 @@ should follow.
 template <class Execution, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters>
 auto regularize(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
-          const NamedParameters& np = CGAL::parameters::default_values()) -> decltype(execution.concurrency(), std::size_t())
+                const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), std::size_t())
 {
   return internal::run_kernel(execution, mesh, field, np, 24, [](const auto& policy, auto& surface) {
     return Regularization(policy, surface, Regularization_thresholds());
@@ -33,9 +34,9 @@ auto regularize(const Execution& execution, TriangleMesh& mesh, const MetricFiel
 /// The same with the policy as a template parameter, as for `adapt_surface_mesh`.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
-          class = std::enable_if_t<!internal::is_execution<TriangleMesh> && !std::is_same_v<TriangleMesh, MetricField>>>
+          class = std::enable_if_t<!internal::is_execution<TriangleMesh>>>
 std::size_t regularize(TriangleMesh& mesh, const MetricField& field,
-                 const NamedParameters& np = CGAL::parameters::default_values())
+                       const NamedParameters& np = CGAL::parameters::default_values())
 {
   return regularize(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }

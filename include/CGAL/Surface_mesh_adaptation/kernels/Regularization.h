@@ -26,7 +26,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -106,15 +105,14 @@ private:
   Operation best_operation(Index v) const
   {
     if (surface_.vertex_class(v) != Vertex_class::smooth) return {};
-    const int excess = excess_of_faces(surface_, mesh_.outgoing[v]).faces;
-    return excess < 0 ? best_collapse(v) : excess > 0 ? best_insertion(v) : Operation();
+    const Excess_of_faces excess = excess_of_faces(surface_, mesh_.outgoing[v]);
+    return excess.faces < 0 ? best_collapse(v, excess) : excess.faces > 0 ? best_insertion(v, excess) : Operation();
   }
 
   /// The edges at a vertex in the surface, with the excess faces at their ends.
   struct Spokes
   {
-    Ring<Index> halfedges;      ///< that leave the vertex, counterclockwise
-    Excess_of_faces center;
+    Ring<Index> halfedges; ///< that leave the vertex, counterclockwise
     Ring<Excess_of_faces> ends;
 
     std::size_t size() const { return halfedges.size(); }
@@ -124,7 +122,6 @@ private:
   Spokes spokes(Index v) const
   {
     Spokes s;
-    s.center = excess_of_faces(surface_, mesh_.outgoing[v]);
     mesh_.for_each_outgoing(v, [&](Index h) {
       s.halfedges.push_back(h);
       s.ends.push_back(excess_of_faces(surface_, Mesh_view::next(h)));
@@ -137,14 +134,14 @@ private:
     return change <= thresholds_.max_change && change < best.change;
   }
 
-  Operation best_collapse(Index v) const
+  Operation best_collapse(Index v, const Excess_of_faces& center) const
   {
     const Spokes s = spokes(v);
     Operation best;
     for (std::size_t i = 0, n = s.size(); i < n; ++i) {
       if (!s.ends[i].counts) continue;
       // vertices with e and f faces too many become one with e + f + 2
-      const int change = s.ends[i].squared_change(s.center.faces + 2) - s.center.faces * s.center.faces +
+      const int change = s.ends[i].squared_change(center.faces + 2) - center.faces * center.faces +
                          s.end(i + 1).squared_change(-1) + s.end(i + n - 1).squared_change(-1);
       const Index h = s.halfedges[i];
       if (is_better(change, best) && collapses_.is_allowed({h, true})) best = {h, change, true, 0};
@@ -152,7 +149,7 @@ private:
     return best;
   }
 
-  Operation best_insertion(Index v) const
+  Operation best_insertion(Index v, const Excess_of_faces& center) const
   {
     const Spokes s = spokes(v);
     Ring<Excess_of_faces> behind; // the edges from the end of a spoke to that of the next
@@ -164,11 +161,11 @@ private:
     Operation best;
     for (std::size_t i = 0, n = s.size(); i < n; ++i) {
       const std::size_t before = i + n - 1;
-      const Excesses excesses{{s.center, s.end(before), s.ends[i], s.end(i + 1)},
+      const Excesses excesses{{center, s.end(before), s.ends[i], s.end(i + 1)},
                               {s.end(before - 1), behind[before % n], behind[i], s.end(i + 2)}};
       for (const unsigned wings : {0u, 1u, 2u, 4u, 8u, 3u, 5u, 6u, 9u, 10u, 12u}) {
         const Operation insertion{s.halfedges[i], excesses.change(wings), false, wings};
-        if (is_better(insertion.change, best) && is_simple(insertion.h, wings) && is_promising(insertion)) best = insertion;
+        if (is_better(insertion.change, best) && is_promising(insertion)) best = insertion;
       }
     }
     return best;
@@ -200,27 +197,32 @@ private:
     }
   };
 
+  /// The outer edges behind which an insertion takes the faces, too.
+  Ring<Index> wing_edges(const Operation& insertion) const
+  {
+    Ring<Index> edges;
+    const std::array<Index, 4> outer = outer_edges(insertion.h);
+    for (std::size_t i = 0; i < 4; ++i)
+      if ((insertion.wings >> i & 1) != 0) edges.push_back(outer[i]);
+    return edges;
+  }
+
   /// The corners of the hole of an insertion, counterclockwise.
-  Ring<Index> hole(Index h, unsigned wings) const
+  Ring<Index> hole(const Operation& insertion) const
   {
     Ring<Index> corners;
-    const std::array<Index, 4> outer = outer_edges(h);
+    const std::array<Index, 4> outer = outer_edges(insertion.h);
     for (std::size_t i = 0; i < 4; ++i) {
       corners.push_back(mesh_.source(outer[i]));
-      if ((wings >> i & 1) != 0) corners.push_back(mesh_.apex(mesh_.twin[outer[i]]));
+      if ((insertion.wings >> i & 1) != 0) corners.push_back(mesh_.apex(mesh_.twin[outer[i]]));
     }
     return corners;
   }
 
-  /// Whether the hole lies on one side of all features and its corners differ.
-  bool is_simple(Index h, unsigned wings) const
+  static bool are_distinct(Ring<Index> vertices)
   {
-    const std::array<Index, 4> outer = outer_edges(h);
-    for (std::size_t i = 0; i < 4; ++i)
-      if ((wings >> i & 1) != 0 && mesh_.is_feature(outer[i])) return false;
-    Ring<Index> corners = hole(h, wings);
-    std::sort(corners.begin(), corners.end());
-    return std::adjacent_find(corners.begin(), corners.end()) == corners.end();
+    std::sort(vertices.begin(), vertices.end());
+    return std::adjacent_find(vertices.begin(), vertices.end()) == vertices.end();
   }
 
   Vector_3 middle(const Ring<Index>& hole) const
@@ -230,15 +232,26 @@ private:
     return sum / double(hole.size());
   }
 
-  /// Whether there is room for a vertex: a test of the middle of the hole, for it takes a walk to find out where that is
-  /// on the surface.
+  /// Whether there is room for a vertex, on one side of all features: a test of the middle of the hole, for it takes a
+  /// walk to find out where that is on the surface.
   bool is_promising(const Operation& insertion) const
   {
-    if (mean_length(insertion) < thresholds_.min_length) return false;
-    const Ring<Index> corners = hole(insertion.h, insertion.wings);
+    for (const Index e : wing_edges(insertion))
+      if (mesh_.is_feature(e)) return false;
+    const Ring<Index> corners = hole(insertion);
+    if (!are_distinct(corners) || mean_length(insertion) < thresholds_.min_length) return false;
     Placed_vertex<Metric> m = surface_.vertex(mesh_.source(insertion.h));
     m.point = middle(corners);
     return are_good(m, corners);
+  }
+
+  /// Of the edges that make place for the vertex.
+  double mean_length(const Operation& insertion) const
+  {
+    const Ring<Index> edges = wing_edges(insertion);
+    double sum = surface_.length(insertion.h);
+    for (const Index e : edges) sum += surface_.length(e);
+    return sum / double(edges.size() + 1);
   }
 
   /// The new vertex in the middle of its hole, on the surface.
@@ -259,19 +272,6 @@ private:
     return true;
   }
 
-  /// Of the edges that make place for the vertex.
-  double mean_length(const Operation& insertion) const
-  {
-    double sum = surface_.length(insertion.h), n = 1;
-    const std::array<Index, 4> outer = outer_edges(insertion.h);
-    for (std::size_t i = 0; i < 4; ++i)
-      if ((insertion.wings >> i & 1) != 0) {
-        sum += surface_.length(outer[i]);
-        ++n;
-      }
-    return sum / n;
-  }
-
   bool is_good(const Placed_vertex<Metric>& m, Index a, Index b) const
   {
     const Vector_3 ea = surface_.points[a] - m.point, eb = surface_.points[b] - m.point, n = ea.cross(eb);
@@ -290,10 +290,8 @@ private:
       if (!surface_.keeps_tolerance({m.location, m.point}, surface_.corner(a), surface_.corner(b))) return false;
       faces.push_back({m.point, surface_.points[a], surface_.points[b]});
     }
-    const std::array<Index, 4> outer = outer_edges(insertion.h);
     Ring<Index> old_faces{Mesh_view::face(insertion.h), Mesh_view::face(mesh_.twin[insertion.h])};
-    for (std::size_t i = 0; i < 4; ++i)
-      if ((insertion.wings >> i & 1) != 0) old_faces.push_back(Mesh_view::face(mesh_.twin[outer[i]]));
+    for (const Index e : wing_edges(insertion)) old_faces.push_back(Mesh_view::face(mesh_.twin[e]));
     return surface_.are_covered(old_faces, faces);
   }
 
@@ -304,7 +302,7 @@ private:
       claim(mesh_.source(operation.h));
       mesh_.for_each_neighbor(mesh_.source(operation.h), claim);
     } else {
-      for (const Index v : hole(operation.h, operation.wings)) claim(v);
+      for (const Index v : hole(operation)) claim(v);
     }
   }
 
@@ -324,6 +322,7 @@ private:
     const auto chosen = pack(execution_, winners.size(), [&](std::size_t i) {
       return !operations[winners[i]].is_collapse;
     });
+    if (chosen.empty()) return 0;
     const auto insertion = [&](std::size_t i) -> const Operation& { return operations[winners[chosen[i]]]; };
     const auto vertices = pack(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
       return mesh_.is_removed_vertex(Index(v));
@@ -331,8 +330,9 @@ private:
     const auto faces = pack(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
       return mesh_.is_removed_face(Index(f));
     });
-    const std::vector<std::uint32_t> holes =
-      holes_near(vertices, chosen.size(), [&](std::size_t i) { return mesh_.source(insertion(i).h); });
+    std::vector<Index> beside(chosen.size());
+    for_each_index(execution_, chosen.size(), [&](std::size_t i) { beside[i] = mesh_.source(insertion(i).h); });
+    const std::vector<std::uint32_t> holes = nearest_holes(vertices, beside);
     std::vector<std::uint8_t> is_done(chosen.size(), 0);
     for_each_index(execution_, chosen.size(), [&](std::size_t i) {
       const std::size_t hole = holes[i]; // two faces are gone with a vertex
@@ -342,24 +342,18 @@ private:
     return count_if(execution_, is_done.size(), [&](std::size_t i) { return is_done[i] != 0; });
   }
 
-  /// For each of `n` vertices, given by `vertex(i)` in increasing order, the position of a hole of its own: the nearest one
-  /// in its range of numbers, for what is far from its neighbours in memory makes all sweeps slower. `no_index` if there
-  /// is none.
-  template <class Vertex>
-  std::vector<std::uint32_t> holes_near(const std::vector<std::uint32_t>& holes, std::size_t n, const Vertex& vertex) const
+  /// For each of the vertices `beside` the position of a hole of its own: the nearest one in its range of numbers, for
+  /// what is far from its neighbours in memory makes all sweeps slower. `no_index` if there is none. Both lists increase.
+  std::vector<std::uint32_t> nearest_holes(const std::vector<std::uint32_t>& holes, const std::vector<Index>& beside) const
   {
-    std::vector<std::uint32_t> chosen(n, no_index);
+    std::vector<std::uint32_t> chosen(beside.size(), no_index);
     std::vector<std::uint8_t> is_taken(holes.size(), 0);
     for_each_index(execution_, number_of_chunks(mesh_.number_of_vertices(), range_of_holes), [&](std::size_t range) {
-      const auto first_hole = [&](std::size_t r) {
-        return std::size_t(std::lower_bound(holes.begin(), holes.end(), r * range_of_holes) - holes.begin());
-      };
-      const std::size_t begin = first_hole(range), end = first_hole(range + 1);
-      if (begin == end) return;
-      for (std::size_t i = first_in(range, n, vertex); i < n && vertex(i) / range_of_holes == range; ++i) {
+      const std::size_t end = first_in_range(holes, range + 1), last = first_in_range(beside, range + 1);
+      for (std::size_t i = first_in_range(beside, range), begin = first_in_range(holes, range); i < last; ++i) {
         std::size_t nearest = end;
         for (std::size_t k = begin; k < end; ++k)
-          if (!is_taken[k] && (nearest == end || distance(holes[k], vertex(i)) < distance(holes[nearest], vertex(i))))
+          if (!is_taken[k] && (nearest == end || distance(holes[k], beside[i]) < distance(holes[nearest], beside[i])))
             nearest = k;
         if (nearest == end) return;
         is_taken[nearest] = 1;
@@ -369,17 +363,9 @@ private:
     return chosen;
   }
 
-  /// The first `i` with a `vertex(i)` in the range or behind it.
-  template <class Vertex>
-  static std::size_t first_in(std::size_t range, std::size_t n, const Vertex& vertex)
+  static std::size_t first_in_range(const std::vector<std::uint32_t>& sorted, std::size_t range)
   {
-    std::size_t begin = 0, end = n;
-    while (begin < end) {
-      const std::size_t middle = (begin + end) / 2;
-      if (vertex(middle) < range * range_of_holes) begin = middle + 1;
-      else end = middle;
-    }
-    return begin;
+    return std::size_t(std::lower_bound(sorted.begin(), sorted.end(), range * range_of_holes) - sorted.begin());
   }
 
   static Index distance(Index a, Index b) { return a < b ? b - a : a - b; }
@@ -388,7 +374,7 @@ private:
   bool apply(const Operation& insertion, Index m, Index f, Index g)
   {
     const Index h = insertion.h, t = mesh_.twin[h];
-    const Ring<Index> corners = hole(h, insertion.wings);
+    const Ring<Index> corners = hole(insertion);
     const Placed_vertex<Metric> inserted = placed(insertion, corners);
     if (!are_good(inserted, corners) || (surface_.has_tolerance() && !keeps_tolerance(insertion, inserted, corners))) {
       deactivate(surface_, mesh_.source(h), Activity::regularize);
