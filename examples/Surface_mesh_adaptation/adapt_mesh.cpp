@@ -186,6 +186,7 @@ SMA::Adaptation_report adapt(const Options& options, const Execution& execution,
       .number_of_iterations(options.rounds > 0 ? unsigned(options.rounds) : SMA::default_number_of_rounds)
       .output_metric_map(output_metric)
       .tolerance(tolerance)
+      .fit_to_surface(options.fit)
       .visitor(std::ref(progress));
   SMA::Adaptation_report report = with_metric_field(options, mesh, [&](const auto& field) {
     return blaming(options.input, [&] { return SMA::adapt_surface_mesh(execution, mesh.mesh, field, parameters); });

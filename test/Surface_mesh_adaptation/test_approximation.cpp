@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Simplification within limits on distances and normals: that it keeps them, uses them up, and comes nearer to the input
-// than quadric errors do.
+// than quadric errors do. And adaptation with faces that are fitted to the surface.
 
 #include "checks.h"
 #include "distances.h"
@@ -10,6 +10,7 @@
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/Quadric_3.h>
+#include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
 #include <CGAL/Surface_mesh_adaptation/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/internal/closest_point.h>
 #include <CGAL/Surface_mesh_adaptation/simplify.h>
@@ -19,6 +20,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace {
 
@@ -43,6 +45,18 @@ double least_cosine(const Soup& soup, const Normal& normal)
     for (const Vector_3& p : {a, b, c, Vector_3((a + b + c) / 3)}) least = (std::min)(least, n.dot(normal(p)));
   }
   return least;
+}
+
+/// Mean of the heights of the faces above the unit sphere, and the deviation from it.
+std::pair<double, double> heights_above_sphere(const Mesh& mesh)
+{
+  double mean = 0, mean_square = 0;
+  distances::for_each_sample(mesh, 20000, [&](const auto& p, double weight) {
+    const double height = Vector_3(p.x(), p.y(), p.z()).norm() - 1;
+    mean += weight * height;
+    mean_square += weight * height * height;
+  });
+  return {mean, std::sqrt(mean_square - mean * mean)};
 }
 
 TEST(Closest_point_of_triangle, is_closer_than_any_other_point)
@@ -149,14 +163,8 @@ TEST(Simplify_within_limits, leaves_as_much_of_a_sphere_outside_as_inside)
 {
   Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(5, 0.3));
   SMA::simplify(mesh, no_size, params::maximum_normal_deviation(10));
-  double mean = 0, mean_square = 0;
-  distances::for_each_sample(mesh, 20000, [&](const auto& p, double weight) {
-    const double height = Vector_3(p.x(), p.y(), p.z()).norm() - 1;
-    mean += weight * height;
-    mean_square += weight * height * height;
-  });
-  // with vertices on the sphere the mean is four times the deviation from it
-  EXPECT_LT(std::abs(mean), 0.6 * std::sqrt(mean_square - mean * mean));
+  const auto [mean, deviation] = heights_above_sphere(mesh);
+  EXPECT_LT(std::abs(mean), 0.6 * deviation); // with vertices on the sphere the mean is four times as large
 }
 
 TEST(Simplify_within_limits, comes_nearer_than_quadric_errors_at_the_same_number_of_vertices)
@@ -270,6 +278,96 @@ TEST(Simplify_within_limits, refuses_limits_that_make_no_sense)
     EXPECT_THROW(SMA::simplify(mesh, no_size, params::maximum_normal_deviation(degrees)), SMA::Invalid_parameter_error);
   for (const double distance : {0.0, -1.0, nan})
     EXPECT_THROW(SMA::simplify(mesh, no_size, params::maximum_distance(distance)), SMA::Invalid_parameter_error);
+}
+
+TEST(Fit_to_surface, leaves_as_much_of_a_sphere_outside_as_inside)
+{
+  const Mesh input = shapes::mesh<Mesh>(shapes::sphere(4, 0.2));
+  for (const double size : {0.3, 0.15, 0.08}) {
+    Mesh on_sphere = input, fitted = input;
+    const SMA::Uniform_metric_field field(size);
+    const auto before = SMA::adapt_surface_mesh(on_sphere, field, params::fit_to_surface(false));
+    const auto after = SMA::adapt_surface_mesh(fitted, field, params::fit_to_surface(true));
+    const auto [depth, deviation] = heights_above_sphere(on_sphere);
+    ASSERT_LT(depth, -deviation);
+    EXPECT_LT(std::abs(heights_above_sphere(fitted).first), 0.15 * std::abs(depth));
+    // nothing else has changed
+    EXPECT_EQ(shapes::soup(fitted).triangles, shapes::soup(on_sphere).triangles);
+    EXPECT_NEAR(after.final.mean_quality, before.final.mean_quality, 0.002);
+    EXPECT_NEAR(after.final.in_range, before.final.in_range, 0.005);
+    EXPECT_EQ(after.kernels.back().kernel, "fit");
+    EXPECT_EQ(after.kernels.back().applied, num_vertices(fitted));
+  }
+}
+
+TEST(Fit_to_surface, comes_nearer_to_real_meshes)
+{
+  for (const std::string name : {"elephant", "fandisk", "couplingdown", "rotor_small"}) {
+    SCOPED_TRACE(name);
+    const Mesh input = real_mesh<Mesh>(name);
+    const distances::Original original(input);
+    const SMA::Uniform_metric_field field(0.5 * shapes::soup(input).mean_edge_length());
+    const auto flat = params::surface_reconstruction(SMA::Flat_reconstruction());
+    Mesh on_surface = input, fitted = input;
+    SMA::adapt_surface_mesh(on_surface, field, flat);
+    const auto report = SMA::adapt_surface_mesh(fitted, field, flat.fit_to_surface(true));
+    const auto before = original.distance_to(on_surface, 50000), after = original.distance_to(fitted, 50000);
+    EXPECT_LT(after.rms, 0.75 * before.rms);
+    EXPECT_LT(after.largest, before.largest);
+    const Soup result = shapes::soup(fitted);
+    EXPECT_TRUE(checks::is_manifold(result));
+    EXPECT_GT(checks::least_area(result), 0);
+    EXPECT_GT(report.final.min_quality, 0.2);
+  }
+}
+
+TEST(Fit_to_surface, leaves_what_is_flat_and_what_is_constrained)
+{
+  for (const Soup& soup : {shapes::square(12, 0.3), shapes::cube(6)}) {
+    Mesh plain = shapes::mesh<Mesh>(soup), fitted = plain;
+    SMA::adapt_surface_mesh(plain, SMA::Uniform_metric_field(0.07));
+    SMA::adapt_surface_mesh(fitted, SMA::Uniform_metric_field(0.07), params::fit_to_surface(true));
+    const Soup expected = shapes::soup(plain), result = shapes::soup(fitted);
+    ASSERT_EQ(result.points.size(), expected.points.size());
+    for (std::size_t v = 0; v < result.points.size(); ++v)
+      EXPECT_LT((result.points[v] - expected.points[v]).norm(), 1e-14);
+  }
+  const Soup soup = shapes::sphere(3, 0.3);
+  Mesh mesh = shapes::mesh<Mesh>(soup);
+  auto is_fixed = mesh.add_property_map<Mesh::Vertex_index, bool>("v:fixed", false).first;
+  for (const std::size_t v : {0, 100, 200}) is_fixed[Mesh::Vertex_index(Mesh::size_type(v))] = true;
+  SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.2),
+                          params::fit_to_surface(true).vertex_is_constrained_map(is_fixed));
+  const Soup result = shapes::soup(mesh);
+  for (const std::size_t v : {0, 100, 200})
+    EXPECT_EQ(std::count(result.points.begin(), result.points.end(), soup.points[v]), 1);
+}
+
+TEST(Fit_to_surface, keeps_a_tolerance)
+{
+  for (const std::string name : {"elephant", "rotor_small"}) {
+    SCOPED_TRACE(name);
+    Mesh mesh = real_mesh<Mesh>(name);
+    const double tolerance = 0.002 * distances::Original(mesh).diagonal();
+    const Mesh input = mesh;
+    const auto report =
+      SMA::adapt_surface_mesh(mesh, SMA::Curvature_metric_field(0.001), params::tolerance(tolerance).fit_to_surface(true));
+    EXPECT_LE(report.certified_distance, tolerance);
+    EXPECT_LE(distances::Original(input).distance_to(mesh, 50000).largest, tolerance);
+    EXPECT_GT(report.kernels.back().applied, num_vertices(mesh) / 2);
+  }
+}
+
+TEST(Fit_to_surface, gives_the_same_bits_with_every_policy)
+{
+  Soup reference;
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    Mesh mesh = shapes::mesh<Mesh>(shapes::capped_cylinder(60, 20, 2));
+    SMA::adapt_surface_mesh(execution, mesh, SMA::Uniform_metric_field(0.06), params::fit_to_surface(true));
+    const Soup result = shapes::soup(mesh);
+    if (reference.points.empty()) reference = result;
+    EXPECT_TRUE(checks::is_identical(result, reference)) << name;
+  });
 }
 
 } // namespace

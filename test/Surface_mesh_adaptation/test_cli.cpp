@@ -296,6 +296,19 @@ TEST_F(Adapt_mesh, refuses_numbers_out_of_range)
   expect_failure(2, "in.off out.off --size 0.1 --rounds 2.5", "rounds");
 }
 
+TEST_F(Adapt_mesh, lets_faces_run_through_the_surface)
+{
+  const auto mean_height = [&](const std::string& options) {
+    expect_success("in.off out.off --size 0.2 " + options);
+    double sum = 0;
+    const Soup soup = read(path("out.off"));
+    for (const auto& t : soup.triangles)
+      sum += ((soup.points[t[0]] + soup.points[t[1]] + soup.points[t[2]]) / 3).norm() - 1;
+    return sum / double(soup.triangles.size());
+  };
+  EXPECT_LT(std::abs(mean_height("--fit")), 0.3 * std::abs(mean_height("")));
+}
+
 TEST_F(Adapt_mesh, keeps_a_tolerance_and_says_so)
 {
   for (const std::string options : {"--tolerance 0.002", "--tolerance 0.002 --size 0.5", "--tolerance 0.01 --anisotropic"}) {

@@ -35,6 +35,7 @@ struct Options
   int vertices = 0;
   std::optional<double> gradation;
   double tolerance = 0;
+  bool fit = false;
   double hmin = 0;
   double hmax = 0;
   std::optional<double> feature_angle; ///< in degrees
@@ -85,6 +86,8 @@ inline po::options_description described_options(Options& o)
     ("tolerance", po::value(&o.tolerance)->value_name("EPS"),
      "keep the Hausdorff distance between input and output below EPS times the diagonal of the bounding box, and certify "
      "it; if nothing else says how fine the mesh is to be, the curvature does such that this is likely")
+    ("fit", po::bool_switch(&o.fit),
+     "let the faces run through the surface instead of touching it with their vertices: half the distance to it")
     ("rounds", po::value(&o.rounds)->value_name("N"), "number of rounds of the kernels")
     ("threads", po::value(&o.threads)->value_name("N"), "number of threads (default: all)")
     ("execution", po::value(&o.execution)->value_name("WHICH"),

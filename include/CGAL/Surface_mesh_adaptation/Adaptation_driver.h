@@ -6,6 +6,8 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_ADAPTATION_DRIVER_H
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
+#include <CGAL/Surface_mesh_adaptation/Sampled_points.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Fitting.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Refinement.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Regularization.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Relocation.h>
@@ -20,6 +22,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace CGAL {
@@ -38,8 +41,10 @@ public:
   {}
 
   /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, a few more in a scaled metric,
-  /// several times.
-  Adaptation_report run(std::size_t rounds, double number_of_vertices = 0)
+  /// several times. In the end the vertices are fitted to the surface if `is_fitted`; `std::false_type` spares users the
+  /// time to compile that.
+  template <class IsFitted = std::false_type>
+  Adaptation_report run(std::size_t rounds, double number_of_vertices = 0, IsFitted is_fitted = {})
   {
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
@@ -49,7 +54,9 @@ public:
     do_rounds(rounds, report_.initial);
     if (number_of_vertices > 0) meet_number(number_of_vertices);
     refinement_.compact();
-    report_.final = number_of_vertices > 0 ? mesh_statistics(execution_, surface_) : current();
+    if constexpr (!std::is_same_v<IsFitted, std::false_type>)
+      if (is_fitted) fit();
+    report_.final = number_of_vertices > 0 || is_fitted ? mesh_statistics(execution_, surface_) : current();
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report_;
   }
@@ -186,6 +193,16 @@ private:
     run_kernel("relocate", max_relocate_sweeps, relocate);
   }
 
+  void fit()
+  {
+    run_kernel("fit", 1, [&](Sweep_counts& counts) {
+      const Sampled_points points(execution_, surface_);
+      ++counts.sweeps;
+      counts.candidates += surface_.mesh.number_of_vertices();
+      return counts.applied += Fitting(execution_, surface_, points, attraction_of_fit).sweep(steps_of_fit);
+    });
+  }
+
   /// Whether so few operations are left that they can wait for the next round.
   bool is_negligible(std::size_t operations) const
   {
@@ -245,6 +262,8 @@ private:
   static constexpr double largest_scale = 1.2;           // of the metric meanwhile, its logarithm: lengths by 1.8
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
+  static constexpr int steps_of_fit = 4;
+  static constexpr double attraction_of_fit = 0.4;       // with less, vertices move along the surface, out of shape
   static constexpr double adapted_share = 0.95;          // of the edges in range
   static constexpr double least_gain = 0.0015;           // in the share of edges in range or in mean quality
 

@@ -32,7 +32,7 @@ struct Mesh_statistics
 /// One call of a kernel.
 struct Kernel_report
 {
-  std::string kernel;              ///< "refine", "simplify", "swap", "regularize" or "relocate"
+  std::string kernel;              ///< "refine", "simplify", "swap", "regularize", "relocate" or "fit"
   std::size_t round = 0;
   std::size_t sweeps = 0;
   std::size_t candidates = 0;      ///< elements that were examined

@@ -82,6 +82,9 @@ struct Placed_vertex
   Metric metric;
 };
 
+/// Pieces of a face of which the distance from the input is bounded where it may stand for hundreds of others.
+constexpr std::size_t max_pieces_of_face = 1024;
+
 /// How far the adapted mesh may be from the input, and the faces of that.
 struct Tolerance
 {

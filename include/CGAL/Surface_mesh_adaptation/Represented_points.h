@@ -35,9 +35,6 @@ struct Deviation_limits
   double min_cosine = -1;                                     ///< between its normal and those of the input
 };
 
-/// Pieces of a face of which the distance from the input is bounded: it may stand for hundreds of others.
-constexpr std::size_t max_pieces_of_face = 1024;
-
 /// Which limit is exceeded.
 enum class Excess { none, distance, normal };
 

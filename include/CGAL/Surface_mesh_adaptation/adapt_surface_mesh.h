@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_adaptation/internal/in_place.h>
 
 #include <functional>
+#include <type_traits>
 #include <utility>
 
 namespace CGAL {
@@ -25,7 +26,8 @@ Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, cons
   auto visitor_parameter = choose(np, CGAL::internal_np::visitor, std::ref(nothing));
   auto& visitor = unwrap(visitor_parameter);
   return adapt_in_place(execution, mesh, field, np, [&](const auto& policy, auto& surface) {
-    return Adaptation_driver(policy, surface, visitor).run(rounds, surface.background().number_of_vertices());
+    return Adaptation_driver(policy, surface, visitor)
+      .run(rounds, surface.background().number_of_vertices(), choose(np, internal_np::fit_to_surface, std::false_type()));
   });
 }
 
@@ -86,6 +88,13 @@ step at the end: if anything throws, it is as it was.
     \cgalParamDescription{the surface between the vertices of the input}
     \cgalParamType{a model of `SurfaceReconstruction`}
     \cgalParamDefault{`Gregory_reconstruction`}
+  \cgalParamNEnd
+  \cgalParamNBegin{fit_to_surface}
+    \cgalParamDescription{whether the vertices leave the surface in the end so that the faces run through it, instead of
+                          touching it from one side: the error is about half as large, and edges and faces fit the metric
+                          a bit less. Corners and constrained vertices stay.}
+    \cgalParamType{`bool`}
+    \cgalParamDefault{`false`: the vertices are on the surface}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_normal_map}
     \cgalParamDescription{the outer normals of the surface at all vertices, of any length but 0; not used at sharp

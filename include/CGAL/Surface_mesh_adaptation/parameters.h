@@ -19,6 +19,7 @@ enum feature_angle_t { feature_angle };
 enum detect_features_t { detect_features };
 enum output_metric_map_t { output_metric_map };
 enum surface_reconstruction_t { surface_reconstruction };
+enum fit_to_surface_t { fit_to_surface };
 enum vertex_shape_operator_map_t { vertex_shape_operator_map };
 enum vertex_attribute_maps_t { vertex_attribute_maps };
 enum maximum_normal_deviation_t { maximum_normal_deviation };

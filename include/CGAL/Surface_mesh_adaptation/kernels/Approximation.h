@@ -29,7 +29,7 @@ public:
   Approximation(const Execution& execution, Surface& surface, const Simplification_thresholds& thresholds,
                 const Deviation_limits& limits)
     : represented_(execution, surface, limits), contraction_(execution, surface, thresholds, represented_)
-    , fitting_(execution, surface, represented_), left_(surface.mesh.number_of_vertices())
+    , fitting_(execution, surface, represented_, attraction), left_(surface.mesh.number_of_vertices())
   {}
 
   /// Collapses at the present bound, or raises it where there is nothing left to collapse. Returns the number of
@@ -65,10 +65,11 @@ private:
   static constexpr double noticeable_share = 0.3;  // of the vertices: removed since the last fit
   static constexpr double max_share_of_held = 0.125; // of the vertices, by the limit on the normals
   static constexpr int last_steps = 8;
+  static constexpr double attraction = 0.05;       // of a vertex to where it is when it is fitted, of that to the points
 
   Represented_points<Surface> represented_;
   Contraction<Surface, Execution> contraction_;
-  Fitting<Surface, Execution> fitting_;
+  Fitting<Surface, Execution, Represented_points<Surface>> fitting_;
   double bound_ = 0;
   std::size_t left_, since_fit_ = 0;
 };

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Fitting: moves the vertices of a simplified mesh off the reference so that its faces run through the points that they
-// stand for instead of touching them from one side: with vertices on the surface, faces of edge length h are up to
-// h^2 k / 6 and on average h^2 k / 8 inside of it where both curvatures are k, and fitted ones within h^2 k / 8 on both
-// sides and 0 on average.
+// Fitting: moves the vertices of a mesh off the reference so that its faces run through the points that they stand for
+// instead of touching them from one side: with vertices on the surface, faces of edge length h are up to h^2 k / 6 and on
+// average h^2 k / 8 inside of it where both curvatures are k, and fitted ones within h^2 k / 8 on both sides and 0 on
+// average. Those are `Represented_points` of a simplified mesh or `Sampled_points` of an adapted one.
 //
-// Least squares over the represented points of their distance from the faces, in the direction of the closest point:
-// damped block Jacobi steps of Gauss-Newton.
+// Least squares over these points of their distance from the faces, in the direction of the closest point: damped block
+// Jacobi steps of Gauss-Newton.
 //
 // Conflict neighbourhood: none. Phases: faces (normal equations of their corners), vertices (step), faces (limits).
 // Invariants: connectivity and locations; corners stay; no face comes to violate a limit or turns by more than 60
 // degrees; the largest distance does not grow.
-// Work: O(represented points) a sweep; span: the points of a face.
+// Work: O(points) a sweep; span: the points of a face.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H
 
-#include <CGAL/Surface_mesh_adaptation/Represented_points.h>
+#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/internal/closest_point.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Cholesky.h>
 
 #include <Eigen/Core>
@@ -30,22 +32,25 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-template <class Surface, class Execution>
+template <class Surface, class Execution, class Points>
 class Fitting
 {
 public:
-  Fitting(const Execution& execution, Surface& surface, const Represented_points<Surface>& represented)
-    : execution_(execution), surface_(surface), mesh_(surface.mesh), represented_(represented)
+  /// `attraction` of a vertex to where it is, of that to the points.
+  Fitting(const Execution& execution, Surface& surface, const Points& points, double attraction)
+    : execution_(execution), surface_(surface), mesh_(surface.mesh), target_(points), attraction_(attraction)
   {}
 
-  /// Steps of all vertices, none of which takes a point nearly as far from its face as the farthest one is.
-  void sweep(int steps)
+  /// Steps of all vertices, none of which takes a point nearly as far from its face as the farthest one is. Returns the
+  /// number of vertices moved.
+  std::size_t sweep(int steps)
   {
-    max_distance_ = share_of_largest * represented_.largest_distance(execution_);
+    max_distance_ = share_of_largest * target_.largest_distance(execution_);
     places_ = surface_.points;
     for (int i = 0; i < steps; ++i) step();
     if (surface_.has_tolerance())
       take_back(places_, [&](Index f) { return is_bad(f, places_) || !keeps_tolerance(f); });
+    return count_if(execution_, mesh_.number_of_vertices(), [&](std::size_t v) { return surface_.points[v] != places_[v]; });
   }
 
 private:
@@ -73,7 +78,7 @@ private:
   {
     std::array<Equations, 3> of_corner;
     const Vector_3 normal = surface_.normal(3 * f);
-    represented_.for_each_point(f, [&](const internal::Closest_point& closest, double weight) {
+    target_.for_each_point(f, [&](const internal::Closest_point& closest, double weight) {
       const double distance = closest.offset.norm();
       const bool is_inside = *std::min_element(closest.weights.begin(), closest.weights.end()) > 0;
       const Vector_3 direction = is_inside || !(distance > 0) ? normal : Vector_3(closest.offset / distance);
@@ -94,7 +99,7 @@ private:
       e.matrix += equations_[h].matrix;
       e.right_side += equations_[h].right_side;
     });
-    const double pull = attraction * e.matrix.trace();
+    const double pull = attraction_ * e.matrix.trace();
     if (!(pull > 0)) return;
     e.matrix += pull * Matrix_3::Identity();
     const Vector_3 d = damping * internal::Cholesky<3>(e.matrix).solve(e.right_side);
@@ -131,7 +136,7 @@ private:
   {
     const auto [a, b, c] = corners(f);
     const Vector_3 old = (before[b] - before[a]).cross(before[c] - before[a]);
-    return surface_.normal(3 * f).dot(old) < min_turn * old.norm() || !represented_.are_within_limits(f, max_distance_);
+    return surface_.normal(3 * f).dot(old) < min_turn * old.norm() || !target_.are_within_limits(f, max_distance_);
   }
 
   bool keeps_tolerance(Index f) const
@@ -146,7 +151,6 @@ private:
     return {mesh_.corner[h], mesh_.corner[h + 1], mesh_.corner[h + 2]};
   }
 
-  static constexpr double attraction = 0.05; // of a vertex to where it is, of that to the points
   static constexpr double share_of_largest = 0.95; // faces that reach it stay: the largest distance does not grow
   static constexpr double max_move = 0.5;   // of a vertex, in largest distances
   static constexpr double damping = 0.8;    // the block Jacobi iteration has eigenvalues from 1/2 to 2
@@ -155,7 +159,8 @@ private:
   const Execution& execution_;
   Surface& surface_;
   const Mesh_view& mesh_;
-  const Represented_points<Surface>& represented_;
+  const Points& target_;
+  double attraction_;
   double max_distance_ = 0;
   Buffer<Vector_3> places_, before_;
   Buffer<Equations> equations_;
