@@ -48,8 +48,7 @@ public:
     max_distance_ = share_of_largest * target_.largest_distance(execution_);
     places_ = surface_.points;
     for (int i = 0; i < steps; ++i) step();
-    if (surface_.has_tolerance())
-      take_back(places_, [&](Index f) { return is_bad(f, places_) || !keeps_tolerance(f); });
+    take_back(places_, [&](Index f) { return is_bad(f, places_) || (surface_.has_tolerance() && !keeps_tolerance(f)); });
     return count_if(execution_, mesh_.number_of_vertices(), [&](std::size_t v) { return surface_.points[v] != places_[v]; });
   }
 
