@@ -87,7 +87,7 @@ inline po::options_description described_options(Options& o)
      "keep the Hausdorff distance between input and output below EPS times the diagonal of the bounding box, and certify "
      "it; if nothing else says how fine the mesh is to be, the curvature does such that this is likely")
     ("fit", po::bool_switch(&o.fit),
-     "let the faces run through the surface instead of touching it with their vertices: half the distance to it")
+     "let the faces run through the surface instead of touching it with their vertices, and so nearer to it")
     ("rounds", po::value(&o.rounds)->value_name("N"), "number of rounds of the kernels")
     ("threads", po::value(&o.threads)->value_name("N"), "number of threads (default: all)")
     ("execution", po::value(&o.execution)->value_name("WHICH"),
