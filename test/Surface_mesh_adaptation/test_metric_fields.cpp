@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -697,6 +698,65 @@ TEST(Anisotropic_gradation, is_switched_off_by_a_ratio_of_one)
   for (const double ratio : {1.0, 0.0, nan}) EXPECT_TRUE(graded(r, before, ratio) == before);
 }
 
+// Proximity
+
+Tensors proximity(const Soup& soup, double hmin, double hmax)
+{
+  return SMA::proximity_tensors(sequential, reference(soup), SMA::Size_bounds(hmin, hmax));
+}
+
+bool all_are_zero(const Tensors& tensors)
+{
+  return std::all_of(tensors.begin(), tensors.end(), [](const Metric_tensor_3& m) { return m == zero; });
+}
+
+TEST(Proximity_tensors, measure_across_strips_and_nothing_else)
+{
+  const double width = 0.1;
+  for (const Soup& soup : {shapes::open_cylinder(64, 3, width), shapes::capped_cylinder(64, 3, width)}) {
+    const Reference r = reference(soup);
+    const Tensors tensors = SMA::proximity_tensors(sequential, r, SMA::Size_bounds(0.01, 1));
+    for (std::size_t v = 0; v < soup.points.size(); ++v) {
+      if (r.features.vertex_class[v] == SMA::Vertex_class::smooth) {
+        EXPECT_EQ(tensors[v], zero);
+        continue;
+      }
+      const Vector_3 up = Vector_3::UnitZ(), radial = Vector_3(soup.points[v][0], soup.points[v][1], 0).normalized();
+      EXPECT_NEAR(width * tensors[v].length(up), std::sqrt(0.75), 1e-6);
+      EXPECT_LT(width * tensors[v].length(radial), 0.002); // the rest is the largest anisotropy
+      EXPECT_LT(width * tensors[v].length(radial.cross(up)), 0.002);
+    }
+    for_each_policy([&](const auto& execution, const std::string& name) {
+      EXPECT_EQ(SMA::proximity_tensors(execution, r, SMA::Size_bounds(0.01, 1)), tensors) << name;
+    });
+  }
+}
+
+TEST(Proximity_tensors, of_strips_narrower_and_wider_than_the_sizes_are_zero)
+{
+  const Soup soup = shapes::capped_cylinder(64, 3, 0.1);
+  EXPECT_FALSE(all_are_zero(proximity(soup, 0.11, 0.12)));
+  EXPECT_TRUE(all_are_zero(proximity(soup, 0.12, 1)));
+  EXPECT_TRUE(all_are_zero(proximity(soup, 0.01, 0.11)));
+}
+
+TEST(Proximity_tensors, of_wedges_are_zero)
+{
+  const auto wedge = [](double degrees) {
+    const double y = std::tan(degrees / 2 * pi / 180);
+    return shapes::subdivided(shapes::subdivided(Soup{{{0, 0, 0}, {1, -y, 0}, {1, y, 0}}, {{0, 1, 2}}}));
+  };
+  EXPECT_TRUE(all_are_zero(proximity(wedge(30), 1e-3, 1)));
+  EXPECT_FALSE(all_are_zero(proximity(wedge(10), 1e-3, 1)));
+}
+
+TEST(Proximity_tensors, of_degenerate_faces_are_finite)
+{
+  Soup soup = shapes::capped_cylinder(12, 2, 0.1);
+  for (const std::size_t v : {3, 20}) soup.points[v] = soup.points[v + 1];
+  for (const Metric_tensor_3& m : proximity(soup, 1e-6, 1)) EXPECT_TRUE(std::isfinite(norm(m)));
+}
+
 // Fields
 
 /// The values of a field at the vertices, in the order of the mesh.
@@ -779,6 +839,19 @@ TEST(Curvature_metric_field, is_anisotropic_only_as_far_as_it_may)
   }
   field.max_anisotropy = 0.5;
   EXPECT_THROW(vertex_metric<Metric_tensor_3>(mesh, field), SMA::Invalid_parameter_error);
+}
+
+TEST(Curvature_metric_field, is_met_on_narrow_strips_between_features)
+{
+  for (const double width : {0.1, 0.03, 0.01}) {
+    Mesh mesh = shapes::mesh<Mesh>(shapes::capped_cylinder(64, 1, width));
+    SMA::Curvature_metric_field field(1e-3);
+    field.anisotropic = true;
+    const auto report = SMA::adapt_surface_mesh<CGAL::Sequential_tag>(mesh, field);
+    EXPECT_GT(report.final.in_range, 0.95) << width;
+    EXPECT_GT(report.final.mean_quality, 0.93) << width;
+    EXPECT_GT(report.final.min_quality, 0.5) << width;
+  }
 }
 
 TEST(Curvature_metric_field, keeps_the_distance_to_the_surface)
@@ -1017,6 +1090,27 @@ TEST(Intersection_metric_field, of_tensors_dominates_them_and_meets_a_number)
   Mesh adapted = mesh;
   SMA::adapt_surface_mesh<CGAL::Sequential_tag>(adapted, field);
   EXPECT_NEAR(double(adapted.number_of_vertices()), 3000, 0.05 * 3000);
+}
+
+TEST(Intersection_metric_field, fits_strips_whatever_the_scale)
+{
+  const double width = 0.05;
+  Mesh mesh = shapes::mesh<Mesh>(shapes::capped_cylinder(64, 1, width));
+  SMA::Curvature_metric_field curvature(1e-3);
+  curvature.anisotropic = true;
+  const auto expect_fit = [&](auto field) {
+    for (const std::size_t n : {0, 300, 1200}) {
+      field.vertices = n;
+      const Tensors tensors = vertex_metric<Metric_tensor_3>(mesh, field);
+      for (const auto v : mesh.vertices()) {
+        const bool is_on_strip = std::hypot(mesh.point(v).x(), mesh.point(v).y()) > 0.99;
+        EXPECT_TRUE(!is_on_strip || std::abs(width * tensors[v].length(Vector_3::UnitZ()) - std::sqrt(0.75)) < 0.02) << n;
+      }
+    }
+  };
+  const SMA::Intersection_metric_field field(curvature, SMA::Uniform_metric_field(0.5));
+  expect_fit(field);
+  expect_fit(SMA::Intersection_metric_field(SMA::Uniform_metric_field(0.4), field));
 }
 
 TEST(Metric_fields, give_the_same_bits_with_every_policy)

@@ -13,6 +13,7 @@
 #include <CGAL/Surface_mesh_adaptation/hessian.h>
 #include <CGAL/Surface_mesh_adaptation/metric_intersection.h>
 #include <CGAL/Surface_mesh_adaptation/metric_normalization.h>
+#include <CGAL/Surface_mesh_adaptation/proximity.h>
 
 #include <CGAL/number_utils.h>
 
@@ -59,6 +60,8 @@ struct Curvature_metric_field
   double max_anisotropy = default_max_anisotropy;  ///< largest ratio of the two sizes at a point
   bool noisy = false;          ///< the points are not quite on the surface (scans): smoother, less accurate curvatures
   std::size_t vertices = 0;    ///< if not 0, the tolerance is that with which the mesh has so many vertices
+  bool proximity = true;       ///< let sizes across narrow strips between feature curves, which are kept, fit these,
+                               ///< whatever the gradation and the anisotropy (`proximity_tensors()`); if `anisotropic`
 
   explicit Curvature_metric_field(double relative_tolerance_) : relative_tolerance(relative_tolerance_)
   {
@@ -195,6 +198,24 @@ void use_scaled(const Execution& execution, const Reference& reference, const Sc
   else use(metric_at_scale<Value>(execution, reference.mesh, reference.points, reference.normals, metric, scale));
 }
 
+/// Whether sizes across narrow strips are to fit these.
+template <class Field>
+bool wants_proximity(const Field&)
+{
+  return false;
+}
+
+inline bool wants_proximity(const Curvature_metric_field& field)
+{
+  return field.anisotropic && field.proximity;
+}
+
+template <class... Fields>
+bool wants_proximity(const Intersection_metric_field<Fields...>& field)
+{
+  return std::apply([](const auto&... f) { return (wants_proximity(f) || ...); }, field.fields);
+}
+
 template <class Execution, class Import, class Reference, class Use>
 void with_vertex_metric(const Execution& execution, const Curvature_metric_field& field, const Import&,
                         const Reference& reference, const Use& use)
@@ -204,9 +225,10 @@ void with_vertex_metric(const Execution& execution, const Curvature_metric_field
   const double hmax = field.hmax > 0 ? field.hmax : 0.1 * diagonal;
   const Size_bounds bounds = field.vertices > 0 ? bounds_of_scaled_metric(field.hmin, field.hmax, diagonal)
                                                 : Size_bounds(field.hmin > 0 ? field.hmin : (std::min)(tolerance, hmax), hmax);
-  const Scalable_metric metric{curvature_tensors(execution, reference, field.anisotropic ? field.max_anisotropy : 1,
-                                                 field.noisy ? Jet_fit::noisy : Jet_fit::exact),
-                               bounds, field.gradation};
+  Scalable_metric metric{curvature_tensors(execution, reference, field.anisotropic ? field.max_anisotropy : 1,
+                                           field.noisy ? Jet_fit::noisy : Jet_fit::exact),
+                         bounds, field.gradation};
+  if (wants_proximity(field)) metric.fixed = proximity_tensors(execution, reference, bounds);
   const double scale = 1 / (6 * tolerance);
   if (field.anisotropic) use_scaled<Metric_tensor_3>(execution, reference, metric, field.vertices, scale, use);
   else use_scaled<double>(execution, reference, metric, field.vertices, scale, use);
@@ -269,17 +291,37 @@ std::size_t number_of_vertices(const Field&, long)
   return 0;
 }
 
+/// A field as a part of an intersection: without what is not for a part to ask.
 template <class Field>
-auto without_gradation(Field field, int) -> decltype(void(field.gradation), Field(field))
+auto as_part(Field field, int) -> decltype(void(field.gradation), Field(field))
 {
   field.gradation = 1;
   return field;
 }
 
+inline Curvature_metric_field as_part(Curvature_metric_field field, int)
+{
+  field.gradation = 1;
+  field.proximity = false; // that of the whole is not scaled
+  return field;
+}
+
 template <class Field>
-Field without_gradation(Field field, long)
+Field as_part(Field field, long)
 {
   return field;
+}
+
+template <class... Fields>
+Intersection_metric_field<Fields...> as_part(const Intersection_metric_field<Fields...>& field, int)
+{
+  auto part = std::apply([](const auto&... f) { return Intersection_metric_field<Fields...>(as_part(f, 0)...); },
+                         field.fields);
+  part.gradation = 1;
+  part.vertices = field.vertices;
+  part.hmin = field.hmin;
+  part.hmax = field.hmax;
+  return part;
 }
 
 template <class Execution, class... Fields, class Import, class Reference, class Use>
@@ -293,7 +335,7 @@ void with_vertex_metric(const Execution& execution, const Intersection_metric_fi
     asked.push_back(checked_tensors(execution, values));
   };
   std::apply([&](const auto&... f) {
-    (with_vertex_metric(execution, without_gradation(f, 0), imported, reference, add), ...);
+    (with_vertex_metric(execution, as_part(f, 0), imported, reference, add), ...);
   }, field.fields);
 
   const double diagonal = diagonal_of_bounding_box(reference.points);
@@ -304,6 +346,7 @@ void with_vertex_metric(const Execution& execution, const Intersection_metric_fi
     for (const auto& of_field : asked) tensors.push_back(of_field[v]);
     metric.tensors[v] = intersection_of_all(tensors);
   }, heavy_chunk_length);
+  if (wants_proximity(field)) metric.fixed = proximity_tensors(execution, reference, metric.bounds);
   if (anisotropic) use_scaled<Metric_tensor_3>(execution, reference, metric, field.vertices, 1, use);
   else use_scaled<double>(execution, reference, metric, field.vertices, 1, use);
 }

@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/gradation.h>
+#include <CGAL/Surface_mesh_adaptation/metric_intersection.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_normals.h>
 
 #include <algorithm>
@@ -152,12 +153,14 @@ Metric_complexity complexity(const Execution& execution, const Mesh_view& mesh, 
 }
 
 /// A metric at the vertices up to scale: with scale `d` its eigenvalues are `d` times those of `tensors`, then kept
-/// within the bounds, and its growth is limited. Where a tensor is zero the size is `hmax`.
+/// within the bounds, and its growth is limited; at last it is intersected with `fixed`. Where a tensor is zero the size
+/// is `hmax`.
 struct Scalable_metric
 {
   std::vector<Metric_tensor_3> tensors;  ///< positive definite, or zero
   Size_bounds bounds;
   double gradation = default_gradation;  ///< at most 1: off
+  std::vector<Metric_tensor_3> fixed = {}; ///< at any scale, as `tensors`, or empty: counts for tensors, not for sizes
 };
 
 namespace internal {
@@ -194,6 +197,20 @@ void grade(const Execution& execution, const Mesh_view& mesh, const std::vector<
            const Corner_normals& normals, double ratio, std::vector<Metric_tensor_3>& tensors)
 {
   apply_gradation(execution, mesh, points, normals, ratio, tensors);
+}
+
+template <class Execution>
+void intersect(const Execution&, const std::vector<Metric_tensor_3>&, std::vector<double>&)
+{}
+
+/// Intersects `tensors` with those of `others` that are not zero, if there are any.
+template <class Execution>
+void intersect(const Execution& execution, const std::vector<Metric_tensor_3>& others,
+               std::vector<Metric_tensor_3>& tensors)
+{
+  for_each_index(execution, others.size(), [&](std::size_t v) {
+    if (others[v].matrix().trace() > 0) tensors[v] = intersection(tensors[v], others[v]);
+  });
 }
 
 /// The smallest and the largest trace, zeros not counted.
@@ -243,6 +260,7 @@ std::vector<Value> metric_at_scale(const Execution& execution, const Mesh_view& 
   std::vector<Value> values;
   internal::scale(execution, metric, d, values);
   internal::grade(execution, mesh, points, normals, metric.gradation, values);
+  internal::intersect(execution, metric.fixed, values);
   return values;
 }
 
@@ -273,7 +291,7 @@ std::vector<Value> normalize_to_vertex_count(const Execution& execution, const M
     internal::scale(execution, metric, std::exp(log_scale), values);
     return excess();
   }, low, high, low, normalization_precision);
-  if (!(metric.gradation > 1)) return values;
+  if (!(metric.gradation > 1) && metric.fixed.empty()) return values;
   internal::solve_increasing([&](double log_scale) {
     values = metric_at_scale<Value>(execution, mesh, points, normals, metric, std::exp(log_scale));
     return excess();
