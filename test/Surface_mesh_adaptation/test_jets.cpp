@@ -121,6 +121,26 @@ TEST(Jets, of_a_sphere_have_the_sign_of_outer_normals)
   }
 }
 
+TEST(Jets, of_stretched_faces_are_cubic_fits_in_any_direction)
+{
+  for (const double angle : {0.0, 0.5, 1.2}) {
+    const Matrix_3 turn = Eigen::AngleAxisd(angle, Vector_3(1, 2, 0).normalized()).toRotationMatrix();
+    const Soup soup = analytic::mapped(shapes::square(10, 0.3), [&](const Vector_3& p) {
+      const double x = 0.6 * (p[0] - 0.5), y = 0.02 * (p[1] - 0.5);
+      return Vector_3(turn * Vector_3(x, y, std::sqrt(1 - x * x - y * y))); // of the unit sphere
+    });
+    const SMA::Mesh_view view = shapes::view(soup);
+    const Corner_jets j = jets(soup);
+    EXPECT_EQ(j.cubic_fits, soup.points.size()) << angle;
+    for (Index v = 0; v < soup.points.size(); ++v) {
+      if (view.is_border_vertex(v)) continue;
+      const Vector_3 n = soup.points[v];
+      EXPECT_LT((j.at(view.outgoing[v]).normal - n).norm(), 5e-5) << angle;
+      EXPECT_LT((j.at(view.outgoing[v]).shape_operator.matrix() - (Matrix_3::Identity() - n * n.transpose())).norm(), 0.05);
+    }
+  }
+}
+
 TEST(Jets, change_sign_with_the_orientation)
 {
   const Soup soup = analytic::torus().mesh(1);

@@ -259,13 +259,31 @@ TEST(Hessian, is_not_made_of_rounding_where_all_samples_lie_on_two_lines)
   double rounding = 1e-15;
   for (const double x : {0.5, 1.0, 1.5}) {
     rounding = -rounding;
-    fit.add(x, rounding, std::sin(x), 1);
-    fit.add(rounding, x, std::sin(3 * x), 1);
+    fit.add({x, rounding}, std::sin(x), 1);
+    fit.add({rounding, x}, std::sin(3 * x), 1);
   }
   SMA::internal::Derivatives_2 f;
   EXPECT_FALSE(fit.solve_quadratic(f));
-  fit.add(1, 1, 0.3, 1);
+  fit.add({1, 1}, 0.3, 1);
   EXPECT_TRUE(fit.solve_quadratic(f));
+}
+
+TEST(Hessian, of_a_quadratic_field_is_exact_on_stretched_faces_of_any_direction)
+{
+  for (const double stretch : {10.0, 1e2, 1e4})
+    for (const double angle : {0.0, 0.4, pi / 4, 2.0}) {
+      const Matrix_3 turn = Eigen::AngleAxisd(angle, Vector_3::UnitZ()).toRotationMatrix();
+      const Matrix_3 map = turn * Vector_3(1, 1 / stretch, 1).asDiagonal();
+      const Soup square = shapes::square(8, 0.3);
+      const Soup soup = analytic::mapped(square, [&](const Vector_3& p) { return Vector_3(map * p); });
+      const Reference r = reference(soup, false);
+      const SMA::Corner_jets jets = SMA::estimate_jets(sequential, r.mesh, r.points);
+      Matrix_3 h;
+      h << 1, 0.5, 0, 0.5, -2, 0, 0, 0, 0;
+      const auto values = analytic::samples(analytic::quadratic(h, Vector_3(1, -2, 0)), square.points);
+      for (const Metric_tensor_3& m : hessians(r, jets, values))
+        EXPECT_LT((map.transpose() * m.matrix() * map - h).norm(), 1e-7) << stretch << ' ' << angle;
+    }
 }
 
 TEST(Hessian, of_a_quadratic_field_is_exact_on_each_side_of_a_ridge)

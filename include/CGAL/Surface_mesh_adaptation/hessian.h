@@ -64,7 +64,7 @@ inline Hessian_estimate hessian_of_sector(const Mesh_view& mesh, const std::vect
   // what the rounding of values and coordinates explains is none
   const double rounding = fit_rounding * (std::abs(values[v]) + f.gradient.lpNorm<Eigen::Infinity>() *
                                                                   (1 + frame.origin.lpNorm<Eigen::Infinity>() / radius));
-  if (!f.hessian.allFinite() || f.hessian.lpNorm<Eigen::Infinity>() <= rounding) return {};
+  if (!f.hessian.allFinite() || f.bend <= rounding) return {};
   Eigen::Matrix<double, 3, 2> axes;
   axes << frame.x, frame.y;
   return {Metric_tensor_3(Matrix_3(axes * (f.hessian / (radius * radius)) * axes.transpose())),

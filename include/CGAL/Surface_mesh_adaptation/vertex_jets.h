@@ -115,12 +115,26 @@ inline Samples_over_plane samples_over_plane(const Sector_neighborhood& neighbor
   return samples;
 }
 
+/// The map of the plane after which the second moments of `samples` are those of a disc around the origin; the identity
+/// if they lie on a line.
+inline Eigen::Matrix2d map_to_disc(const Samples_over_plane& samples)
+{
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+  for (const Sample_over_plane& s : samples) moments += s.x * s.x.transpose();
+  const double xx = moments(0, 0), shear = moments(0, 1) / xx, yy = moments(1, 1) - shear * moments(0, 1);
+  if (!(xx > 0 && yy > 0)) return Eigen::Matrix2d::Identity();
+  const double half = 0.5 * double(samples.size());
+  Eigen::Matrix2d map; // the inverse of a Cholesky factor
+  map << std::sqrt(half / xx), 0, -shear * std::sqrt(half / yy), std::sqrt(half / yy);
+  return map;
+}
+
 /// The fit of `value(sample)`, a function that is zero at the origin.
 template <class Value>
 Cubic_fit fit_of(const Samples_over_plane& samples, const Value& value)
 {
-  Cubic_fit fit;
-  for (const Sample_over_plane& s : samples) fit.add(s.x[0], s.x[1], value(s), s.weight);
+  Cubic_fit fit(map_to_disc(samples));
+  for (const Sample_over_plane& s : samples) fit.add(s.x, value(s), s.weight);
   return fit;
 }
 
@@ -159,7 +173,7 @@ inline void subtract_fourth_order(Cubic_fit& fit, const Samples_over_plane& samp
 {
   for (const Sample_over_plane& s : samples) {
     const Eigen::Vector2d hx = h * s.x;
-    fit.subtract(s.x[0], s.x[1], s.x.dot(hx) * hx.squaredNorm() / 8, s.weight);
+    fit.subtract(s.x, s.x.dot(hx) * hx.squaredNorm() / 8, s.weight);
   }
 }
 
@@ -188,7 +202,7 @@ inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& po
   const double rounding = fit_rounding * frame.origin.lpNorm<Eigen::Infinity>() / radius;
   const auto accept = [&](bool solved) {
     if (!solved || !(f.gradient.squaredNorm() <= largest_squared_slope) || !f.hessian.allFinite()) return false;
-    if (f.hessian.lpNorm<Eigen::Infinity>() <= rounding) f.hessian.setZero();
+    if (f.bend <= rounding) f.hessian.setZero();
     Jet_of_sector fitted = jet_of_graph(frame, f, radius);
     fitted.agrees = plausible.contains(fitted.normal, fitted.shape_operator);
     if (purpose == Fit_purpose::patches && !fitted.agrees) return false;

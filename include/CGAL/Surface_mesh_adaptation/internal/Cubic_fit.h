@@ -20,20 +20,24 @@ struct Derivatives_2
 {
   Eigen::Vector2d gradient;
   Eigen::Matrix2d hessian;
+  double bend;      ///< largest second derivative, in units of length in which the samples spread alike all around
   double explained; ///< sum of the squares of a fit at its samples, with their weights
 };
 
 /// Gathers samples, then solves the normal equations. Their monomials are ordered by degree, so those of the quadratic
 /// fit are a block of those of the cubic one: both come from the same sums.
-/// Coordinates should be scaled to the order of 1.
 class Cubic_fit
 {
 public:
-  Cubic_fit() : matrix_(Matrix::Zero()), right_hand_side_(Row::Zero()) {}
+  /// \param to_unit maps the samples to where they are of the order of 1 all around: where they are stretched in a
+  ///        direction that is no axis, monomials of the coordinates themselves can hardly be told from each other
+  explicit Cubic_fit(const Eigen::Matrix2d& to_unit = Eigen::Matrix2d::Identity())
+    : to_unit_(to_unit), matrix_(Matrix::Zero()), right_hand_side_(Row::Zero())
+  {}
 
-  void add(double x, double y, double value, double weight)
+  void add(const Eigen::Vector2d& x, double value, double weight)
   {
-    const Row row = monomials(x, y);
+    const Row row = monomials(to_unit_ * x);
     for (int j = 0; j < size; ++j) {
       const double wj = weight * row[j];
       right_hand_side_[j] += wj * value;
@@ -43,9 +47,9 @@ public:
   }
 
   /// Takes `value` from a sample that was added with the same weight.
-  void subtract(double x, double y, double value, double weight)
+  void subtract(const Eigen::Vector2d& x, double value, double weight)
   {
-    right_hand_side_ -= weight * value * monomials(x, y);
+    right_hand_side_ -= weight * value * monomials(to_unit_ * x);
   }
 
   std::size_t number_of_samples() const { return samples_; }
@@ -70,8 +74,11 @@ public:
         return false;
       const Vector c = inverse_.cwiseProduct(
         factors_.solve(inverse_.cwiseProduct(fit_.right_hand_side_.template head<n>())));
-      result.gradient << c[0], c[1];
-      result.hessian << c[2], c[3], c[3], c[4];
+      Eigen::Matrix2d hessian;
+      hessian << c[2], c[3], c[3], c[4];
+      result.gradient = fit_.to_unit_.transpose() * c.template head<2>();
+      result.hessian = fit_.to_unit_.transpose() * hessian * fit_.to_unit_;
+      result.bend = hessian.template lpNorm<Eigen::Infinity>();
       result.explained = c.dot(fit_.right_hand_side_.template head<n>());
       return true;
     }
@@ -93,8 +100,9 @@ private:
   using Matrix = Eigen::Matrix<double, size, size>;
   using Row = Eigen::Matrix<double, size, 1>;
 
-  static Row monomials(double x, double y)
+  static Row monomials(const Eigen::Vector2d& p)
   {
+    const double x = p[0], y = p[1];
     Row row;
     row << x, y, x * x / 2, x * y, y * y / 2, x * x * x, x * x * y, x * y * y, y * y * y;
     return row;
@@ -105,6 +113,7 @@ private:
   /// The least length of a column over the longest: where all samples lie on two lines, the mixed one is but rounding.
   static constexpr double least_column = 1e-6;
 
+  Eigen::Matrix2d to_unit_;
   Matrix matrix_; // its lower triangle
   Row right_hand_side_;
   std::size_t samples_ = 0;
