@@ -132,6 +132,7 @@ int main(int argc, char** argv)
     if (argc > 2 && surface.name != argv[2]) continue;
     print_table(surface, "front", analytic::front, vertices);
     print_table(surface, "several scales", analytic::several_scales, vertices);
+    print_table(surface, "fronts and waves", analytic::fronts_and_waves, vertices);
   }
   return 0;
 }

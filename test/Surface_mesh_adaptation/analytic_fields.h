@@ -88,8 +88,15 @@ inline double front(const Vector_3& p)
   return std::tanh(50 * (p[0] - 0.5 + 0.1 * std::sin(2 * shapes::pi * p[1])));
 }
 
-/// Two steep fronts, one of them faint, and weak waves between.
+/// Three fronts as steep as `front`, each ten times fainter than the one before.
 inline double several_scales(const Vector_3& p)
+{
+  return front(p) + 0.1 * std::tanh(50 * (p[1] - 0.3 - 0.1 * std::sin(2 * shapes::pi * p[0]))) +
+         0.01 * std::tanh(50 * (p.sum() - 1));
+}
+
+/// Two fronts, one of them faint and steeper, and weak waves all over.
+inline double fronts_and_waves(const Vector_3& p)
 {
   return std::tanh(20 * (p[0] - 0.5 + 0.1 * std::sin(2 * shapes::pi * p[1]))) +
          0.1 * std::tanh(100 * (p[1] - 0.3 - 0.1 * std::sin(2 * shapes::pi * p[0]))) +
