@@ -18,6 +18,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -71,7 +72,8 @@ void solve(const Mesh& mesh, Values u, double eps, double time_step, int steps)
   for (const Vertex v : mesh.vertices()) x[int(v.idx())] = u[v];
   for (int i = 0; i < steps; ++i) {
     const Eigen::VectorXd reaction = (x.array() - x.array().cube()) / eps;
-    x = solver.solve(elements.mass.cwiseProduct(x + time_step * reaction));
+    const Eigen::VectorXd right_hand_side = elements.mass.cwiseProduct(x + time_step * reaction);
+    x = solver.solve(right_hand_side); // which must not be an expression of x: that is written meanwhile
   }
   for (const Vertex v : mesh.vertices()) u[v] = x[int(v.idx())];
 }
@@ -106,16 +108,19 @@ int main(int argc, char* argv[])
   for (const Vertex v : mesh.vertices()) u[v] = front(v);
 
   for (int step = 1; step <= steps; ++step) {
-    solve(mesh, u, eps, 0.2 * eps * eps, 50);
+    solve(mesh, u, eps, 0.2 * eps, 50);
     const SMA::Adaptation_report report = adapt(mesh, u, vertices);
-    double mean = 0, mass = 0;
+    double mean = 0, mass = 0, least = 0, largest = 0;
     const Finite_elements elements(mesh);
     for (const Vertex v : mesh.vertices()) {
       mean += elements.mass[int(v.idx())] * u[v];
       mass += elements.mass[int(v.idx())];
+      least = (std::min)(least, u[v]);
+      largest = (std::max)(largest, u[v]);
     }
-    std::printf("step %d: %zu vertices, %.1f %% of the edges in range, quality %.3f, mean of u %.4f\n", step,
-                report.final.vertices, 100 * report.final.in_range, report.final.mean_quality, mean / mass);
+    const SMA::Mesh_statistics& s = report.final;
+    std::printf("step %d: %zu vertices, %.1f %% of the edges in range, quality %.3f, u from %.3f to %.3f, mean %.4f\n",
+                step, s.vertices, 100 * s.in_range, s.mean_quality, least, largest, mean / mass);
   }
   if (argc > 4) {
     std::ofstream out(argv[4]);
