@@ -82,24 +82,23 @@ inline Function quadratic(const Matrix_3& h, const Vector_3& slope)
           [=](const Vector_3& p) { return Vector_3(h * p + slope); }, [=](const Vector_3&) { return h; }};
 }
 
+/// Zero on a line that winds through the unit square upwards, and on one across it.
+inline double off_upward_line(const Vector_3& p) { return p[0] - 0.5 + 0.1 * std::sin(2 * shapes::pi * p[1]); }
+inline double off_line_across(const Vector_3& p) { return p[1] - 0.3 - 0.1 * std::sin(2 * shapes::pi * p[0]); }
+
 /// A steep front across the unit square.
-inline double front(const Vector_3& p)
-{
-  return std::tanh(50 * (p[0] - 0.5 + 0.1 * std::sin(2 * shapes::pi * p[1])));
-}
+inline double front(const Vector_3& p) { return std::tanh(50 * off_upward_line(p)); }
 
 /// Three fronts as steep as `front`, each ten times fainter than the one before.
 inline double several_scales(const Vector_3& p)
 {
-  return front(p) + 0.1 * std::tanh(50 * (p[1] - 0.3 - 0.1 * std::sin(2 * shapes::pi * p[0]))) +
-         0.01 * std::tanh(50 * (p.sum() - 1));
+  return front(p) + 0.1 * std::tanh(50 * off_line_across(p)) + 0.01 * std::tanh(50 * (p.sum() - 1));
 }
 
 /// Two fronts, one of them faint and steeper, and weak waves all over.
 inline double fronts_and_waves(const Vector_3& p)
 {
-  return std::tanh(20 * (p[0] - 0.5 + 0.1 * std::sin(2 * shapes::pi * p[1]))) +
-         0.1 * std::tanh(100 * (p[1] - 0.3 - 0.1 * std::sin(2 * shapes::pi * p[0]))) +
+  return std::tanh(20 * off_upward_line(p)) + 0.1 * std::tanh(100 * off_line_across(p)) +
          0.02 * std::sin(8 * shapes::pi * (p[0] * p[1] + p[2]));
 }
 

@@ -121,12 +121,9 @@ inline Eigen::Matrix2d map_to_disc(const Samples_over_plane& samples)
 {
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
   for (const Sample_over_plane& s : samples) moments += s.x * s.x.transpose();
-  const double xx = moments(0, 0), shear = moments(0, 1) / xx, yy = moments(1, 1) - shear * moments(0, 1);
-  if (!(xx > 0 && yy > 0)) return Eigen::Matrix2d::Identity();
-  const double half = 0.5 * double(samples.size());
-  Eigen::Matrix2d map; // the inverse of a Cholesky factor
-  map << std::sqrt(half / xx), 0, -shear * std::sqrt(half / yy), std::sqrt(half / yy);
-  return map;
+  const Cholesky<2> factors(moments);
+  if (!factors.is_positive_definite()) return Eigen::Matrix2d::Identity();
+  return std::sqrt(0.5 * double(samples.size())) * factors.solve_lower<2>(Eigen::Matrix2d::Identity());
 }
 
 /// The fit of `value(sample)`, a function that is zero at the origin.
