@@ -9,6 +9,7 @@
 #include "common.h"
 
 #include <CGAL/Surface_mesh_adaptation/Profiled_execution.h>
+#include <CGAL/Surface_mesh_adaptation/keep_freed_memory.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -197,6 +198,7 @@ int main(int argc, char* argv[])
     std::fprintf(stderr, "usage: work_span MESH FACTOR [REPETITIONS]\n");
     return 2;
   }
+  SMA::keep_freed_memory();
   const Mesh input = bench::read_mesh(argv[1]);
   const double size = std::atof(argv[2]) * bench::mean_edge_length(input);
   const std::size_t input_bytes = bench::memory("VmRSS");

@@ -10,6 +10,7 @@
 #include "adapt_mesh/options.h"
 #include "adapt_mesh/summary.h"
 
+#include <CGAL/Surface_mesh_adaptation/keep_freed_memory.h>
 #include <CGAL/surface_mesh_adaptation.h>
 
 #include <csignal>
@@ -248,6 +249,7 @@ Exit_status guarded_main(int argc, char* argv[])
 
 int main(int argc, char* argv[])
 {
+  CGAL::Surface_mesh_adaptation::keep_freed_memory();
   std::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit is an error like any other
   return adapt_mesh::guarded_main(argc, argv);
 }

@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/Profiled_execution.h>
+#include <CGAL/Surface_mesh_adaptation/keep_freed_memory.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/matching.h>
@@ -634,6 +635,19 @@ TEST(Maximal_independent_set, takes_logarithmically_many_rounds)
                        maximal_matching(sequential, small, few, hashed_priority).rounds);
   }
 }
+
+#ifdef __GLIBC__
+TEST(Freed_memory, is_kept)
+{
+  SMA::keep_freed_memory();
+  constexpr std::size_t size = std::size_t(1) << 26;
+  std::vector<char>(size, 1);
+  const auto heap = mallinfo2().arena;
+  const std::vector<char> again(size, 1);
+  EXPECT_EQ(mallinfo2().arena, heap) << "the heap shrank and grew, or only grew";
+  EXPECT_EQ(mallinfo2().hblkhd, 0u) << "blocks of their own are given back";
+}
+#endif
 
 TEST(Task_priority, is_unique_and_ordered_by_bucket)
 {
