@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Conformity and quality of the adapted meshes of CGAL's data, as a table: edges of half the mean length of the input,
-// and sizes from the curvature for a thousandth of the diagonal, isotropic and anisotropic. Of the uniform mesh also what
-// is left without edges that lead from one curve of the surface's features to another, and faces with all corners on such
-// curves: these are as long and as wide as the surface has room there, whatever the size.
+// and sizes from the curvature for a thousandth of the diagonal, isotropic and anisotropic. Of the uniform mesh also
+// without the edges that lead from one feature curve to another and the faces with all corners on such curves: these
+// are as long and as wide as the surface has room there, whatever the size.
 //
 //     quality [--gradation RATIO] [MESH...]
 
@@ -32,19 +32,19 @@ void print(const SMA::Mesh_statistics& s)
 
 SMA::Vector_3 from_to(const Point& p, const Point& q) { return {q.x() - p.x(), q.y() - p.y(), q.z() - p.z()}; }
 
-/// Of the edges that are on curves or leave them, and the faces that leave them: how many per cent are in range, and how
-/// good they are in the mean.
-void print_away_from_curves(const Mesh& mesh, Mesh::Property_map<Mesh::Edge_index, bool> is_on_curve, double size)
+/// How many per cent are in range of the edges on curves or with an end off them, and the mean quality of the faces
+/// with a corner off them.
+void print_away_from_curves(const Mesh& mesh, Mesh::Property_map<Mesh::Edge_index, bool> is_curve_edge, double size)
 {
-  std::vector<char> on_curve(mesh.num_vertices(), 0);
+  std::vector<char> is_curve_vertex(mesh.num_vertices(), 0);
   for (const auto e : mesh.edges())
-    if (is_on_curve[e]) on_curve[mesh.vertex(e, 0)] = on_curve[mesh.vertex(e, 1)] = 1;
+    if (is_curve_edge[e]) is_curve_vertex[mesh.vertex(e, 0)] = is_curve_vertex[mesh.vertex(e, 1)] = 1;
 
   const SMA::Isotropic_metric metric{1 / size};
   std::size_t edges = 0, in_range = 0, faces = 0;
   for (const auto e : mesh.edges()) {
     const auto p = mesh.vertex(e, 0), q = mesh.vertex(e, 1);
-    if (on_curve[p] && on_curve[q] && !is_on_curve[e]) continue;
+    if (is_curve_vertex[p] && is_curve_vertex[q] && !is_curve_edge[e]) continue;
     const double length = metric.length(from_to(mesh.point(p), mesh.point(q)));
     ++edges;
     in_range += length >= SMA::min_unit_length && length <= SMA::max_unit_length;
@@ -53,7 +53,7 @@ void print_away_from_curves(const Mesh& mesh, Mesh::Property_map<Mesh::Edge_inde
   for (const auto f : mesh.faces()) {
     const auto h = mesh.halfedge(f);
     const auto p = mesh.source(h), q = mesh.target(h), r = mesh.target(mesh.next(h));
-    if (on_curve[p] && on_curve[q] && on_curve[r]) continue;
+    if (is_curve_vertex[p] && is_curve_vertex[q] && is_curve_vertex[r]) continue;
     ++faces;
     quality += SMA::face_quality(metric, metric, metric, from_to(mesh.point(p), mesh.point(q)),
                                  from_to(mesh.point(p), mesh.point(r)));
@@ -64,13 +64,13 @@ void print_away_from_curves(const Mesh& mesh, Mesh::Property_map<Mesh::Edge_inde
 void print_uniform(Mesh mesh)
 {
   const double size = 0.5 * bench::mean_edge_length(mesh);
-  const auto is_on_curve = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_on_curve", false).first;
+  const auto is_curve_edge = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_curve", false).first;
   const SMA::Mesh_statistics s = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size),
-                                                         SMA::parameters::edge_is_constrained_map(is_on_curve))
+                                                         SMA::parameters::edge_is_constrained_map(is_curve_edge))
                                    .final;
   print(s);
   std::printf(" %.1f |", s.min_angle);
-  print_away_from_curves(mesh, is_on_curve, size);
+  print_away_from_curves(mesh, is_curve_edge, size);
 }
 
 void print_row(const std::string& name, double gradation)

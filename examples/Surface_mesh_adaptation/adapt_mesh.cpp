@@ -249,7 +249,7 @@ Exit_status guarded_main(int argc, char* argv[])
 
 int main(int argc, char* argv[])
 {
-  CGAL::Surface_mesh_adaptation::keep_freed_memory();
+  adapt_mesh::SMA::keep_freed_memory();
   std::signal(SIGXFSZ, SIG_IGN); // a file beyond the limit is an error like any other
   return adapt_mesh::guarded_main(argc, argv);
 }
