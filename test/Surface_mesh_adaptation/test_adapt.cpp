@@ -803,8 +803,8 @@ TEST(Adapt, gives_the_same_bits_with_every_policy_for_a_uniform_size)
 
 TEST(Adapt, gives_the_same_bits_with_every_policy_when_it_coarsens)
 {
-  const Mesh mesh = real_mesh<Mesh>("mannequin-devil");
-  expect_same_for_all_policies(mesh, SMA::Uniform_metric_field(1.6 * shapes::soup(mesh).mean_edge_length()));
+  const Mesh mesh = real_mesh<Mesh>("bunny00"); // with so many vertices several tasks of one colour run at once
+  expect_same_for_all_policies(mesh, SMA::Uniform_metric_field(2 * shapes::soup(mesh).mean_edge_length()));
 }
 
 TEST(Adapt, gives_the_same_bits_with_every_policy_for_the_curvature)

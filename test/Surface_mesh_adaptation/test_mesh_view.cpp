@@ -19,6 +19,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+#include <set>
+
 namespace {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
@@ -627,7 +631,7 @@ TEST(Border_of_blocks, colors_blocks_differently_if_an_edge_of_a_listed_vertex_j
   for (const Mesh_view& m : views_of_several_blocks())
     for (const double share : {0.02, 0.2, 1.0}) {
       const std::vector<Index> vertices = random_vertices(m, share, random);
-      const SMA::Border_of_blocks border(SMA::Sequential_execution(), m, vertices);
+      const SMA::Border_of_blocks border(SMA::Sequential_execution(), m, vertices, 1);
       std::vector<std::size_t> color(border.number_of_blocks(), ~std::size_t(0));
       const auto classes = border.blocks_by_color();
       for (std::size_t c = 0; c < classes.size(); ++c)
@@ -647,7 +651,32 @@ TEST(Border_of_blocks, colors_blocks_differently_if_an_edge_of_a_listed_vertex_j
   EXPECT_GT(edges_between_blocks, 10000u);
 }
 
-TEST(Sweep_block_borders, visits_each_vertex_once_and_lists_the_same_with_every_policy)
+TEST(Border_of_blocks, gives_disjoint_neighborhoods_to_blocks_of_a_color)
+{
+  Random random(14);
+  std::size_t largest_class = 0;
+  for (const Mesh_view& m : views_of_several_blocks())
+    for (const double share : {0.02, 1.0}) {
+      const std::vector<Index> vertices = random_vertices(m, share, random);
+      const SMA::Border_of_blocks border(SMA::Sequential_execution(), m, vertices, 2);
+      for (const auto& blocks : border.blocks_by_color()) {
+        largest_class = (std::max)(largest_class, blocks.size());
+        std::set<Index> taken;
+        for (const Index b : blocks) {
+          const SMA::Block_neighborhood neighborhood = border.neighborhood(b);
+          ASSERT_TRUE(taken.insert(b).second);
+          for (const Index other : neighborhood.adjacent) ASSERT_TRUE(taken.insert(other).second);
+          for (std::size_t i = border.begin(b); i < border.end(b); ++i)
+            ASSERT_TRUE(SMA::contains_ring(neighborhood, m, vertices[i]));
+        }
+      }
+    }
+  EXPECT_GT(largest_class, 1u);
+}
+
+/// Expects `sweep` to visit each vertex once, and to list the same vertices, some, with every policy.
+template <class Sweep>
+void expect_one_visit_of_each_vertex(const Sweep& sweep)
 {
   Random random(13);
   for (const Mesh_view& m : views_of_several_blocks()) {
@@ -657,7 +686,7 @@ TEST(Sweep_block_borders, visits_each_vertex_once_and_lists_the_same_with_every_
       SCOPED_TRACE(name);
       std::vector<int> visits(m.number_of_vertices(), 0);
       SMA::Sweep_counts counts;
-      const std::vector<Index> odd = SMA::sweep_block_borders(
+      const std::vector<Index> odd = sweep(
         execution, m, vertices, counts, [&](Index v, const auto&, SMA::Sweep_counts& c, std::vector<Index>& list) {
         ++visits[v];
         ++c.candidates;
@@ -671,6 +700,16 @@ TEST(Sweep_block_borders, visits_each_vertex_once_and_lists_the_same_with_every_
     });
     EXPECT_FALSE(first.empty());
   }
+}
+
+TEST(Sweep_block_borders, visits_each_vertex_once_and_lists_the_same_with_every_policy)
+{
+  expect_one_visit_of_each_vertex([](auto&&... arguments) { return SMA::sweep_block_borders(arguments...); });
+}
+
+TEST(Sweep_block_neighborhoods, visits_each_vertex_once_and_lists_the_same_with_every_policy)
+{
+  expect_one_visit_of_each_vertex([](auto&&... arguments) { return SMA::sweep_block_neighborhoods(arguments...); });
 }
 
 TEST(Sweep_blocks, visits_each_vertex_once_within_its_block)

@@ -29,18 +29,19 @@ struct Block
   Index begin, end;
 
   bool contains(Index v) const { return begin <= v && v < end; }
-
-  /// Whether `v`, its neighbours and hence its faces lie in the block.
-  bool contains_ring(const Mesh_view& mesh, Index v) const
-  {
-    bool inside = true;
-    mesh.for_each_outgoing_while(v, [&](Index h) {
-      inside = contains(mesh.target(h)) && contains(mesh.apex(h));
-      return inside;
-    });
-    return inside;
-  }
 };
+
+/// Whether `vertices` contain those around `v`.
+template <class Vertices>
+bool contains_ring(const Vertices& vertices, const Mesh_view& mesh, Index v)
+{
+  bool inside = true;
+  mesh.for_each_outgoing_while(v, [&](Index h) {
+    inside = vertices.contains(mesh.target(h)) && vertices.contains(mesh.apex(h));
+    return inside;
+  });
+  return inside;
+}
 
 struct Sweep_counts
 {
@@ -78,32 +79,48 @@ std::vector<Index> sweep_blocks(const Execution& execution, std::size_t number_o
   return deferred;
 }
 
-/// Vertices in increasing order, by the blocks they belong to, and a colour for each block, such that no edge leads
-/// from one of the vertices to another block of the same colour.
+/// A block and those next to it.
+struct Block_neighborhood
+{
+  Index block;
+  const Ring<Index>& adjacent;
+
+  bool contains(Index v) const
+  {
+    const Index b = Index(v / block_length);
+    return b == block || std::find(adjacent.begin(), adjacent.end(), b) != adjacent.end();
+  }
+};
+
+/// Vertices in increasing order, by the blocks they belong to, and a colour for each block. Two blocks are adjacent if
+/// an edge leads from one of the vertices in one to the other.
 class Border_of_blocks
 {
 public:
+  /// Blocks of one colour are not adjacent, and if `distance` is 2 instead of 1, not adjacent to a common one either.
   template <class Execution>
-  Border_of_blocks(const Execution& execution, const Mesh_view& mesh, const std::vector<Index>& vertices)
-    : first_(number_of_chunks(mesh.number_of_vertices(), block_length) + 1)
+  Border_of_blocks(const Execution& execution, const Mesh_view& mesh, const std::vector<Index>& vertices, int distance)
+    : first_(number_of_chunks(mesh.number_of_vertices(), block_length) + 1), adjacent_(first_.size() - 1)
   {
     for_each_index(execution, first_.size(), [&](std::size_t b) {
       const auto found = std::lower_bound(vertices.begin(), vertices.end(), Index(b * block_length));
       first_[b] = std::size_t(found - vertices.begin());
     });
-    std::vector<Ring<Index>> adjacent(first_.size() - 1);
     const auto add = [&](std::size_t b, std::size_t other) {
-      Ring<Index>& list = adjacent[b];
+      Ring<Index>& list = adjacent_[b];
       if (other != b && std::find(list.begin(), list.end(), Index(other)) == list.end()) list.push_back(Index(other));
     };
-    for_each_index(execution, adjacent.size(), [&](std::size_t b) {
+    for_each_index(execution, adjacent_.size(), [&](std::size_t b) {
       for (std::size_t i = first_[b]; i < first_[b + 1]; ++i)
         mesh.for_each_neighbor(vertices[i], [&](Index w) { add(b, w / block_length); });
     }, 1);
-    for (std::size_t b = 0; b < adjacent.size(); ++b)
-      for (std::size_t i = 0; i < adjacent[b].size(); ++i) add(adjacent[b][i], b);
-    coloring_ = first_fit_coloring(adjacent.size(), [&](std::size_t b, const auto& f) {
-      for (const Index other : adjacent[b]) f(other);
+    for (std::size_t b = 0; b < adjacent_.size(); ++b)
+      for (std::size_t i = 0; i < adjacent_[b].size(); ++i) add(adjacent_[b][i], b);
+    coloring_ = first_fit_coloring(adjacent_.size(), [&](std::size_t b, const auto& f) {
+      for (const Index other : adjacent_[b]) {
+        f(other);
+        if (distance > 1) std::for_each(adjacent_[other].begin(), adjacent_[other].end(), f);
+      }
     });
   }
 
@@ -121,10 +138,36 @@ public:
     return other == block || coloring_.color[other] != coloring_.color[block];
   }
 
+  Block_neighborhood neighborhood(std::size_t block) const { return {Index(block), adjacent_[block]}; }
+
 private:
   std::vector<std::size_t> first_; // of each block, and the end
+  std::vector<Ring<Index>> adjacent_;
   Graph_coloring coloring_;
 };
+
+/// Calls `visit(k, b, counts, list)` for the `k`-th of the `vertices`, in the block `b`: blocks of one colour in
+/// parallel, the vertices of one block in order. Adds to `counts`, and returns the concatenated lists.
+template <class Execution, class Visit>
+std::vector<Index> sweep_colors(const Execution& execution, const Border_of_blocks& border, Sweep_counts& counts,
+                                const Visit& visit)
+{
+  std::vector<Sweep_counts> partial(border.number_of_blocks());
+  std::vector<std::vector<Index>> lists(border.number_of_blocks());
+  for (const std::vector<std::uint32_t>& blocks : border.blocks_by_color())
+    for_each_index(execution, blocks.size(), [&](std::size_t i) {
+      const std::size_t b = blocks[i];
+      Sweep_counts local;
+      for (std::size_t k = border.begin(b); k < border.end(b); ++k) visit(k, b, local, lists[b]);
+      partial[b] = local;
+    }, 1);
+  std::vector<Index> result;
+  for (std::size_t b = 0; b < lists.size(); ++b) {
+    counts += partial[b];
+    result.insert(result.end(), lists[b].begin(), lists[b].end());
+  }
+  return result;
+}
 
 /// Calls `visit(v, stands_still, counts, list)` for the `vertices`, which are in increasing order: one block after the
 /// other where an edge leads from one to the other, else in parallel. `stands_still(w)` tells whether no other task
@@ -134,23 +177,27 @@ std::vector<Index> sweep_block_borders(const Execution& execution, const Mesh_vi
                                        const std::vector<Index>& vertices, Sweep_counts& counts, const Visit& visit)
 {
   if (vertices.empty()) return {};
-  const Border_of_blocks border(execution, mesh, vertices);
-  std::vector<Sweep_counts> partial(border.number_of_blocks());
-  std::vector<std::vector<Index>> lists(border.number_of_blocks());
-  for (const std::vector<std::uint32_t>& blocks : border.blocks_by_color())
-    for_each_index(execution, blocks.size(), [&](std::size_t i) {
-      const std::size_t b = blocks[i];
-      const auto stands_still = [&](Index w) { return border.stands_still(w, b); };
-      Sweep_counts local;
-      for (std::size_t k = border.begin(b); k < border.end(b); ++k) visit(vertices[k], stands_still, local, lists[b]);
-      partial[b] = local;
-    }, 1);
-  std::vector<Index> result;
-  for (std::size_t b = 0; b < lists.size(); ++b) {
-    counts += partial[b];
-    result.insert(result.end(), lists[b].begin(), lists[b].end());
-  }
-  return result;
+  const Border_of_blocks border(execution, mesh, vertices, 1);
+  return sweep_colors(execution, border, counts,
+                      [&](std::size_t k, std::size_t b, Sweep_counts& c, std::vector<Index>& list) {
+    visit(vertices[k], [&](Index w) { return border.stands_still(w, b); }, c, list);
+  });
+}
+
+/// Calls `visit(v, neighborhood, counts, list)` for the `vertices`, which are in increasing order. `neighborhood` has
+/// the block of `v` and those next to it, which no other task may touch meanwhile. Adds to `counts`, and returns the
+/// concatenated lists.
+template <class Execution, class Visit>
+std::vector<Index> sweep_block_neighborhoods(const Execution& execution, const Mesh_view& mesh,
+                                             const std::vector<Index>& vertices, Sweep_counts& counts,
+                                             const Visit& visit)
+{
+  if (vertices.empty()) return {};
+  const Border_of_blocks border(execution, mesh, vertices, 2);
+  return sweep_colors(execution, border, counts,
+                      [&](std::size_t k, std::size_t b, Sweep_counts& c, std::vector<Index>& list) {
+    visit(vertices[k], border.neighborhood(b), c, list);
+  });
 }
 
 } // namespace Surface_mesh_adaptation

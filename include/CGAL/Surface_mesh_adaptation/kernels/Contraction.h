@@ -92,10 +92,10 @@ public:
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
         if (mesh_.is_removed_vertex(v) || least_cost_[v] > bound_) return;
-        if (!block.contains_ring(mesh_, v)) return list.push_back(v);
+        if (!contains_ring(block, mesh_, v)) return list.push_back(v);
         ++c.candidates;
         bool is_put_off = false;
-        const Collapse best = propose(v, [&](Index d) { return block.contains_ring(mesh_, d); }, is_put_off);
+        const Collapse best = propose(v, [&](Index d) { return contains_ring(block, mesh_, d); }, is_put_off);
         if (is_put_off) list.push_back(v);
         if (best.h == no_index) return;
         apply(best);

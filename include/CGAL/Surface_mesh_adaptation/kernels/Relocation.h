@@ -78,7 +78,7 @@ public:
         if (mesh_.is_removed_vertex(v) || surface_.vertex_class(v) == Vertex_class::corner ||
             !is_active(surface_, v, Activity::relocate))
           return;
-        if (!block.contains_ring(mesh_, v)) return list.push_back(v);
+        if (!contains_ring(block, mesh_, v)) return list.push_back(v);
         visit(v, [&](Index w) { return block.contains(w); }, c, list); // or has had its turn
       });
     // what would have to look at vertices that another task moves is left for the end: a few near features and folds

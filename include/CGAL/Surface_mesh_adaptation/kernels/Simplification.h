@@ -8,7 +8,7 @@
 // the test for folds also looks at the faces behind the ring: if these may be changing, the vertex is put off.
 // Invariants: simplicial 2-manifold, components, genus, boundary cycles; corners stay; curve vertices vanish only
 // along their curve; no face turns away from the surface.
-// Work: O(active vertices) a sweep; span: the work of a block and the passes of the border.
+// Work: O(active vertices) a sweep; span: the work of a block and the passes, or colours, of the border.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SIMPLIFICATION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SIMPLIFICATION_H
@@ -48,19 +48,21 @@ public:
   std::size_t sweep(Sweep_counts& counts)
   {
     Sweep_counts local;
-    const std::vector<Index> deferred = sweep_blocks(
-      execution_, mesh_.number_of_vertices(), local,
-      [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
-        if (mesh_.is_removed_vertex(v) || !is_active(surface_, v, Activity::simplify)) return;
-        if (!block.contains_ring(mesh_, v)) return list.push_back(v);
-        ++c.candidates;
-        bool is_put_off = false;
-        const Mesh_view::Directed_edge e = examine(v, [&](Index w) { return block.contains(w); }, is_put_off);
-        if (is_put_off) list.push_back(v);
-        if (e.h == no_index) return;
-        apply(e);
-        ++c.applied;
-      });
+    const auto visit = [&](Index v, const auto& vertices, Sweep_counts& c, std::vector<Index>& list) {
+      if (mesh_.is_removed_vertex(v) || !is_active(surface_, v, Activity::simplify)) return;
+      if (!contains_ring(vertices, mesh_, v)) return list.push_back(v);
+      ++c.candidates;
+      bool is_put_off = false;
+      const Mesh_view::Directed_edge e = examine(v, [&](Index w) { return vertices.contains(w); }, is_put_off);
+      if (is_put_off) list.push_back(v);
+      if (e.h == no_index) return;
+      apply(e);
+      ++c.applied;
+    };
+    std::vector<Index> deferred = sweep_blocks(execution_, mesh_.number_of_vertices(), local, visit);
+    // Where most vertices vanish, those at the borders are in each other's way: claims would propose them over and over.
+    if (double(local.applied) > share_of_dense_collapses * double(local.candidates))
+      deferred = sweep_block_neighborhoods(execution_, mesh_, deferred, local, visit);
     sweep_border(deferred, local);
     ++local.sweeps;
     counts += local;
@@ -244,6 +246,7 @@ private:
     return is_kept;
   }
 
+  static constexpr double share_of_dense_collapses = 1.0 / 3; // of the vertices that are examined
   static constexpr double max_misfit = 1.3; // of what it was: where there are too many vertices moves make good for it
 
   const Execution& execution_;
