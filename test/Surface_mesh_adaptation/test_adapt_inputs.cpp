@@ -107,6 +107,22 @@ TEST(Input, with_an_isolated_vertex_is_refused)
   EXPECT_EQ(expect_refusal_of_mesh<SMA::Non_manifold_vertex_error>(mesh).index(), num_vertices(mesh) - 1);
 }
 
+TEST(Input, is_refused_by_its_own_numbers_if_their_order_is_poor)
+{
+  const Soup one = shapes::torus(90, 80); // rows so long that adaptation numbers the vertices anew
+  const Index n = Index(one.points.size());
+  Soup two = one;
+  shapes::append(two, one);
+  Mesh mesh = shapes::mesh<Mesh>(two);
+  const Vertex other(n + 100), shared(5000);
+  for (const auto h : CGAL::halfedges_around_target(mesh.halfedge(other), mesh)) mesh.set_target(h, shared);
+  mesh.remove_vertex(other);
+  EXPECT_EQ(expect_refusal_of_mesh<SMA::Non_manifold_vertex_error>(mesh).index(), 5000u);
+  mesh = shapes::mesh<Mesh>(one);
+  mesh.add_vertex(Point(0, 0, 0));
+  EXPECT_EQ(expect_refusal_of_mesh<SMA::Non_manifold_vertex_error>(mesh).index(), n);
+}
+
 TEST(Input, with_two_edges_between_the_same_vertices_is_refused)
 {
   // two fans around a common pair of poles, glued to a sphere: each edge is fine, but two of them join the poles

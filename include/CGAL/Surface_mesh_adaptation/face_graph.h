@@ -162,38 +162,85 @@ void read_connectivity(const Execution& execution, const FaceGraph& graph, const
   });
 }
 
+/// Of all vertices, each walked around once from its halfedge on.
+struct Fans
+{
+  std::size_t corners = 0;
+  std::size_t first_isolated = std::size_t(-1), first_non_simplicial = std::size_t(-1);
+
+  friend Fans operator+(const Fans& a, const Fans& b)
+  {
+    return {a.corners + b.corners, (std::min)(a.first_isolated, b.first_isolated),
+            (std::min)(a.first_non_simplicial, b.first_non_simplicial)};
+  }
+};
+
+inline Fans fan_of(const Mesh_view& mesh, Index v, std::size_t number)
+{
+  Fans fan;
+  if (mesh.outgoing[v] == no_index) {
+    fan.first_isolated = number;
+    return fan;
+  }
+  Ring<Index> ring;
+  mesh.for_each_neighbor(v, [&](Index w) { ring.push_back(w); });
+  fan.corners = ring.size() - (mesh.is_border_vertex(v) ? 1 : 0);
+  std::sort(ring.begin(), ring.end());
+  if (std::adjacent_find(ring.begin(), ring.end()) != ring.end()) fan.first_non_simplicial = number;
+  return fan;
+}
+
+/// The first number of a vertex with corners that its fan does not have. \pre there is one
+template <class Number>
+std::size_t first_with_other_fans(const Mesh_view& mesh, const Number& number)
+{
+  std::vector<Index> missing(mesh.number_of_vertices(), 0);
+  for (const Index v : mesh.corner) ++missing[v];
+  std::size_t first = missing.size();
+  for (Index v = 0; v < missing.size(); ++v) {
+    if (mesh.outgoing[v] != no_index) mesh.for_each_outgoing(v, [&](Index) { --missing[v]; });
+    if (missing[v] > 0) first = (std::min)(first, std::size_t(number(v)));
+  }
+  return first;
+}
+
+/// \param number the number of a vertex by which errors name it
 /// \throws Non_manifold_vertex_error, Non_simplicial_edge_error
-template <class Execution>
-void check_fans(const Execution& execution, const Mesh_view& mesh)
+template <class Execution, class Number>
+void check_fans(const Execution& execution, const Mesh_view& mesh, const Number& number)
 {
   const std::size_t n = mesh.number_of_vertices();
-  const auto first = [&](const auto& is_bad) {
-    return reduce(execution, n, n, [&](std::size_t v) { return is_bad(Index(v)) ? v : n; },
-                  [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
-  };
-  const auto faces_in_fan = [&](std::size_t v) {
-    Index faces = 0;
-    if (mesh.outgoing[v] != no_index) mesh.for_each_outgoing(Index(v), [&](Index) { ++faces; });
-    return faces;
-  };
-  const std::size_t corners_in_fans = reduce(execution, n, std::size_t(0), [&](std::size_t v) {
-    return std::size_t(faces_in_fan(v));
-  }, std::plus<std::size_t>());
-  std::size_t non_manifold = first([&](Index v) { return mesh.outgoing[v] == no_index; });
-  if (corners_in_fans != mesh.number_of_halfedges()) { // some corner belongs to a second fan of its vertex
-    std::vector<Index> faces_at_vertex(n, 0);
-    for (const Index v : mesh.corner) ++faces_at_vertex[v];
-    non_manifold = (std::min)(non_manifold, first([&](Index v) { return faces_in_fan(v) != faces_at_vertex[v]; }));
-  }
+  const Fans fans = reduce(execution, n, Fans(), [&](std::size_t v) {
+    return fan_of(mesh, Index(v), number(Index(v)));
+  }, std::plus<Fans>());
+  std::size_t non_manifold = fans.first_isolated;
+  if (fans.corners != mesh.number_of_halfedges()) // some corner belongs to a second fan of its vertex
+    non_manifold = (std::min)(non_manifold, first_with_other_fans(mesh, number));
   if (non_manifold < n) throw Non_manifold_vertex_error(non_manifold);
+  if (fans.first_non_simplicial < n) throw Non_simplicial_edge_error(fans.first_non_simplicial);
+}
 
-  const std::size_t non_simplicial = first([&](Index v) {
-    Ring<Index> ring;
-    mesh.for_each_neighbor(v, [&](Index w) { ring.push_back(w); });
-    std::sort(ring.begin(), ring.end());
-    return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
+/// Reads `graph` as `read_face_graph()` does, but leaves it to `check_fans()` to walk around the vertices, which takes
+/// long where their order is poor.
+/// \throws Non_triangular_face_error, Non_finite_coordinate_error, Empty_mesh_error, Mesh_too_large_error
+template <class Execution, class FaceGraph, class VertexPointMap>
+Imported_mesh<FaceGraph> import_face_graph(const Execution& execution, const FaceGraph& graph,
+                                           const VertexPointMap& point_map)
+{
+  Imported_mesh<FaceGraph> result;
+  with_numbering(execution, graph, [&](const auto& policy, const auto& number) {
+    if (number.number_of_faces() == 0) throw Empty_mesh_error();
+    read_connectivity(policy, graph, number, result);
+    const std::size_t n = result.vertices.size();
+    result.points.resize(n);
+    const std::size_t bad = reduce(policy, n, n, [&](std::size_t v) {
+      const auto& p = get(point_map, result.vertices[v]);
+      result.points[v] = Vector_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+      return result.points[v].allFinite() ? n : v;
+    }, [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
+    if (bad < n) throw Non_finite_coordinate_error(bad);
   });
-  if (non_simplicial < n) throw Non_simplicial_edge_error(non_simplicial);
+  return result;
 }
 
 /// Reads `graph`, a triangulated surface with the points `get(point_map, v)`, into arrays, and checks it: an orientable
@@ -205,20 +252,8 @@ template <class Execution, class FaceGraph, class VertexPointMap>
 Imported_mesh<FaceGraph> read_face_graph(const Execution& execution, const FaceGraph& graph,
                                          const VertexPointMap& point_map)
 {
-  Imported_mesh<FaceGraph> result;
-  with_numbering(execution, graph, [&](const auto& policy, const auto& number) {
-    if (number.number_of_faces() == 0) throw Empty_mesh_error();
-    read_connectivity(policy, graph, number, result);
-    check_fans(execution, result.mesh);
-    const std::size_t n = result.vertices.size();
-    result.points.resize(n);
-    const std::size_t bad = reduce(policy, n, n, [&](std::size_t v) {
-      const auto& p = get(point_map, result.vertices[v]);
-      result.points[v] = Vector_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-      return result.points[v].allFinite() ? n : v;
-    }, [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
-    if (bad < n) throw Non_finite_coordinate_error(bad);
-  });
+  Imported_mesh<FaceGraph> result = import_face_graph(execution, graph, point_map);
+  check_fans(execution, result.mesh, [](Index v) { return v; });
   return result;
 }
 

@@ -125,12 +125,13 @@ double share_of_near_ends(const Execution& execution, const Mesh_view& mesh)
 constexpr double good_locality = 0.7;
 
 /// Renumbers vertices along the Hilbert curve, and faces by their smallest vertex, unless the order is good already.
+/// Returns the numbers that the vertices had; none if they keep them.
 template <class Execution, class Import>
-void improve_locality(const Execution& execution, Import& imported, Feature_parameters& features)
+std::vector<Index> improve_locality(const Execution& execution, Import& imported, Feature_parameters& features)
 {
   Mesh_view& mesh = imported.mesh;
-  if (share_of_near_ends(execution, mesh) >= good_locality) return;
-  const std::vector<Index> vertex_order = hilbert_order(execution, imported.points);
+  if (share_of_near_ends(execution, mesh) >= good_locality) return {};
+  std::vector<Index> vertex_order = hilbert_order(execution, imported.points);
   const std::vector<Index> new_vertex = inverse(execution, vertex_order);
   std::vector<std::uint64_t> face_key(mesh.number_of_faces());
   for_each_index(execution, face_key.size(), [&](std::size_t f) {
@@ -156,6 +157,7 @@ void improve_locality(const Execution& execution, Import& imported, Feature_para
   reorder(execution, vertex_order, 1, imported.points);
   reorder(execution, vertex_order, 1, imported.vertices);
   reorder(execution, vertex_order, 1, features.vertex_is_constrained);
+  return vertex_order;
 }
 
 } // namespace internal

@@ -164,9 +164,10 @@ Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& grap
   using Reconstruction = std::decay_t<decltype(
     choose(np, internal_np::surface_reconstruction, Gregory_reconstruction()))>;
   const auto points = point_map(graph, np);
-  auto imported = read_face_graph(execution, graph, points);
+  auto imported = import_face_graph(execution, graph, points);
   Feature_parameters features = feature_parameters(graph, imported, np);
-  improve_locality(execution, imported, features);
+  const std::vector<Index> order = improve_locality(execution, imported, features);
+  check_fans(execution, imported.mesh, [&](Index v) { return order.empty() ? v : order[v]; });
   Given_jets given;
   with_input_numbers(graph, imported, [&] { given = given_jets(imported, np); });
   const Reference_surface<Reconstruction> reference(execution, imported.mesh, imported.points, features, std::move(given));
