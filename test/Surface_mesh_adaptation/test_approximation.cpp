@@ -47,11 +47,12 @@ double least_cosine(const Soup& soup, const Normal& normal)
   return least;
 }
 
-/// Mean of the heights of the faces above the unit sphere, and the deviation from it.
+/// Mean of the heights of the faces above the unit sphere, and the deviation from it. With 20 000 samples the mean is off by
+/// a tenth of the depth of faces that have their corners on the sphere.
 std::pair<double, double> heights_above_sphere(const Mesh& mesh)
 {
   double mean = 0, mean_square = 0;
-  distances::for_each_sample(mesh, 20000, [&](const auto& p, double weight) {
+  distances::for_each_sample(mesh, 1000000, [&](const auto& p, double weight) {
     const double height = Vector_3(p.x(), p.y(), p.z()).norm() - 1;
     mean += weight * height;
     mean_square += weight * height * height;
@@ -312,7 +313,7 @@ TEST(Fit_to_surface, comes_nearer_to_real_meshes)
     SMA::adapt_surface_mesh(on_surface, field, flat);
     const auto report = SMA::adapt_surface_mesh(fitted, field, flat.fit_to_surface(true));
     const auto before = original.distance_to(on_surface, 50000), after = original.distance_to(fitted, 50000);
-    EXPECT_LT(after.rms, 0.75 * before.rms);
+    EXPECT_LT(after.rms, 0.67 * before.rms);
     EXPECT_LT(after.largest, before.largest);
     const Soup result = shapes::soup(fitted);
     EXPECT_TRUE(checks::is_manifold(result));

@@ -196,10 +196,12 @@ private:
   void fit()
   {
     run_kernel("fit", 1, [&](Sweep_counts& counts) {
-      const Sampled_points points(execution_, surface_);
+      Sampled_points points(execution_, surface_);
       ++counts.sweeps;
       counts.candidates += surface_.mesh.number_of_vertices();
-      return counts.applied += Fitting(execution_, surface_, points, attraction_of_fit).sweep(steps_of_fit);
+      Fitting fitting(execution_, surface_, points, {attraction_of_fit, min_fitted_quality});
+      // vertices cross bends of the input, so faces come to see others
+      return counts.applied += fitting.sweep(steps_of_fit, [&] { points.sample(execution_); });
     });
   }
 
@@ -263,7 +265,8 @@ private:
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
   static constexpr int steps_of_fit = 4;
-  static constexpr double attraction_of_fit = 0.4;       // with less, vertices move along the surface, out of shape
+  static constexpr double attraction_of_fit = 0.2;       // with less, vertices move along the surface, out of shape
+  static constexpr double min_fitted_quality = 0.5;
   static constexpr double adapted_share = 0.95;          // of the edges in range
   static constexpr double least_gain = 0.0015;           // in the share of edges in range or in mean quality
 

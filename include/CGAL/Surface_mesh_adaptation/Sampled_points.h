@@ -25,15 +25,33 @@ class Sampled_points
 {
 public:
   /// \pre no face of `surface` is removed
-  /// Work: O(n), a walk on the reference for each place.
   template <class Execution>
   Sampled_points(const Execution& execution, const Surface& surface) : surface_(surface), mesh_(surface.mesh)
   {
+    locations_.resize(places * mesh_.number_of_faces());
     points_.resize(places * mesh_.number_of_faces());
     weights_.resize(mesh_.number_of_faces());
     for_each_index(execution, mesh_.number_of_faces(), [&](std::size_t f) {
       const Triangle_points p = corners(Index(f));
-      for (std::size_t i = 0; i < places; ++i) points_[places * f + i] = below(Index(f), i, p);
+      for (std::size_t i = 0; i < places; ++i) locations_[places * f + i] = start(Index(f), i, place(p, i));
+    }, heavy_chunk_length);
+    sample(execution);
+  }
+
+  /// Finds the points anew, for the faces as they are now. Work: O(n), a walk on the reference for each place, from
+  /// where the last one ended.
+  template <class Execution>
+  void sample(const Execution& execution)
+  {
+    for_each_index(execution, mesh_.number_of_faces(), [&](std::size_t f) {
+      const Triangle_points p = corners(Index(f));
+      for (std::size_t i = 0; i < places; ++i) {
+        Location& l = locations_[places * f + i];
+        const Vector_3 target = place(p, i);
+        l = surface_.reference().locate({l, surface_.reference().evaluate(l)}, target,
+                                        share_of_way * (p[i % 3] - target).norm()).location;
+        points_[places * f + i] = surface_.point(l);
+      }
       weights_[f] = (p[1] - p[0]).cross(p[2] - p[0]).norm() / (2 * places);
     }, heavy_chunk_length);
   }
@@ -76,25 +94,20 @@ private:
     return largest;
   }
 
-  /// The point of the reference below place `i` of face `f`.
-  Vector_3 below(Index f, std::size_t i, const Triangle_points& p) const
+  /// Place `i` of a face with corners `p`.
+  static Vector_3 place(const Triangle_points& p, std::size_t i)
   {
-    const Vector_3 centroid = (p[0] + p[1] + p[2]) / 3, place = i < 3 ? Vector_3((p[i] + centroid) / 2) : centroid;
-    return surface_.point(surface_.reference().locate(start(f, i, place), place, share_of_way * (p[i % 3] - place).norm())
-                            .location);
+    const Vector_3 centroid = (p[0] + p[1] + p[2]) / 3;
+    return i < 3 ? Vector_3((p[i] + centroid) / 2) : centroid;
   }
 
-  /// Where the walk to `place` starts: at the next corner that is smooth.
-  typename Surface::Reference::Located_point start(Index f, std::size_t i, const Vector_3& place) const
+  /// Where the first walk to `place` starts: at the next corner that is smooth.
+  Location start(Index f, std::size_t i, const Vector_3& place) const
   {
     const auto corner = [&](std::size_t k) { return mesh_.corner[3 * std::size_t(f) + (i + k) % 3]; };
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index v = corner(k);
-      if (surface_.vertex_class(v) == Vertex_class::smooth)
-        return {surface_.locations[v], {surface_.points[v], surface_.normals[v]}};
-    }
-    const Location beside = surface_.reference().smooth_location_near(surface_.locations[corner(0)], place);
-    return {beside, surface_.reference().evaluate(beside)};
+    for (std::size_t k = 0; k < 3; ++k)
+      if (surface_.vertex_class(corner(k)) == Vertex_class::smooth) return surface_.locations[corner(k)];
+    return surface_.reference().smooth_location_near(surface_.locations[corner(0)], place);
   }
 
   Triangle_points corners(Index f) const
@@ -107,7 +120,8 @@ private:
 
   const Surface& surface_;
   const Mesh_view& mesh_;
-  Buffer<Vector_3> points_;
+  Buffer<Location> locations_;
+  Buffer<Vector_3> points_; // at these
   Buffer<double> weights_; // areas
 };
 

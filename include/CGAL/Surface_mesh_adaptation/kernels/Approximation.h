@@ -29,7 +29,7 @@ public:
   Approximation(const Execution& execution, Surface& surface, const Simplification_thresholds& thresholds,
                 const Deviation_limits& limits)
     : represented_(execution, surface, limits), contraction_(execution, surface, thresholds, represented_)
-    , fitting_(execution, surface, represented_, attraction), left_(surface.mesh.number_of_vertices())
+    , fitting_(execution, surface, represented_, Fitting_thresholds{attraction}), left_(surface.mesh.number_of_vertices())
   {}
 
   /// Collapses at the present bound, or raises it where there is nothing left to collapse. Returns the number of
@@ -57,7 +57,7 @@ public:
 private:
   void fit(int steps)
   {
-    fitting_.sweep(steps);
+    fitting_.sweep(steps, [] {});
     since_fit_ = 0;
   }
 

@@ -9,8 +9,8 @@
 // Jacobi steps of Gauss-Newton.
 //
 // Conflict neighbourhood: none. Phases: faces (normal equations of their corners), vertices (step), faces (limits).
-// Invariants: connectivity and locations; corners stay; no face comes to violate a limit or turns by more than 60
-// degrees; the largest distance does not grow.
+// Invariants: connectivity and locations; corners stay; no face comes to violate a limit, turns by more than 60 degrees or
+// gets worse below a quality; the largest distance does not grow.
 // Work: O(points) a sweep; span: the points of a face.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H
@@ -32,22 +32,31 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+struct Fitting_thresholds
+{
+  double attraction;       ///< of a vertex to where it is, of that to the points
+  double min_quality = 0;  ///< no face below gets worse
+};
+
 template <class Surface, class Execution, class Points>
 class Fitting
 {
 public:
-  /// `attraction` of a vertex to where it is, of that to the points.
-  Fitting(const Execution& execution, Surface& surface, const Points& points, double attraction)
-    : execution_(execution), surface_(surface), mesh_(surface.mesh), target_(points), attraction_(attraction)
+  Fitting(const Execution& execution, Surface& surface, const Points& points, const Fitting_thresholds& thresholds)
+    : execution_(execution), surface_(surface), mesh_(surface.mesh), target_(points), thresholds_(thresholds)
   {}
 
-  /// Steps of all vertices, none of which takes a point nearly as far from its face as the farthest one is. Returns the
-  /// number of vertices moved.
-  std::size_t sweep(int steps)
+  /// Steps of all vertices, none of which takes a point nearly as far from its face as the farthest one is; `renew` is
+  /// called between them, and may find other points for the faces. Returns the number of vertices moved.
+  template <class Renew>
+  std::size_t sweep(int steps, const Renew& renew)
   {
     max_distance_ = share_of_largest * target_.largest_distance(execution_);
     places_ = surface_.points;
-    for (int i = 0; i < steps; ++i) step();
+    for (int i = 0; i < steps; ++i) {
+      if (i > 0) renew();
+      step();
+    }
     take_back(places_, [&](Index f) { return is_bad(f, places_) || (surface_.has_tolerance() && !keeps_tolerance(f)); });
     return count_if(execution_, mesh_.number_of_vertices(), [&](std::size_t v) { return surface_.points[v] != places_[v]; });
   }
@@ -98,30 +107,42 @@ private:
       e.matrix += equations_[h].matrix;
       e.right_side += equations_[h].right_side;
     });
-    const double pull = attraction_ * e.matrix.trace();
+    const double pull = thresholds_.attraction * e.matrix.trace();
     if (!(pull > 0)) return;
     e.matrix += pull * Matrix_3::Identity();
     const Vector_3 d = damping * internal::Cholesky<3>(e.matrix).solve(e.right_side);
     if (!d.allFinite()) return;
-    const Vector_3 way = surface_.points[v] + d - places_[v];
-    const double length = way.norm(), longest = max_move * max_distance_;
-    surface_.points[v] = length > longest ? Vector_3(places_[v] + longest / length * way) : Vector_3(places_[v] + way);
+    const double length = d.norm(), longest = max_move * max_distance_;
+    surface_.points[v] += length > longest ? Vector_3(longest / length * d) : d;
   }
 
-  /// Puts the corners of the faces that have become bad back to where they were `before`, until there are none.
+  /// Takes half of its way since `before` back from the corners of the faces that have become bad, a few times, then all
+  /// of it, until there are none.
   template <class IsBad>
   void take_back(const Buffer<Vector_3>& before, const IsBad& is_bad)
   {
     is_bad_.resize(mesh_.number_of_faces());
-    while (count_if(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
-             return is_bad_[f] = !mesh_.is_removed_face(Index(f)) && has_moved(Index(f), before) && is_bad(Index(f));
-           }) > 0)
-      for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
-        if (!mesh_.is_removed_vertex(Index(v)))
-          mesh_.for_each_outgoing(Index(v), [&](Index h) {
-            if (is_bad_[Mesh_view::face(h)] != 0) surface_.points[v] = before[v];
-          });
+    fill(execution_, is_changed_, mesh_.number_of_vertices(), std::uint8_t(1));
+    const auto find_bad = [&] {
+      return count_if(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
+        return is_bad_[f] = !mesh_.is_removed_face(Index(f)) && is_changed(Index(f)) && has_moved(Index(f), before) &&
+                            is_bad(Index(f));
       });
+    };
+    for (int i = 0; find_bad() > 0; ++i)
+      for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
+        is_changed_[v] = has_bad_face(Index(v));
+        if (is_changed_[v])
+          surface_.points[v] = i < max_halvings ? Vector_3((surface_.points[v] + before[v]) / 2) : before[v];
+      });
+  }
+
+  bool has_bad_face(Index v) const
+  {
+    bool result = false;
+    if (!mesh_.is_removed_vertex(v))
+      mesh_.for_each_outgoing(v, [&](Index h) { result = result || is_bad_[Mesh_view::face(h)] != 0; });
+    return result;
   }
 
   bool has_moved(Index f, const Buffer<Vector_3>& before) const
@@ -130,12 +151,28 @@ private:
     return std::any_of(v.begin(), v.end(), [&](Index w) { return surface_.points[w] != before[w]; });
   }
 
-  /// Whether a face turned far or came to violate a limit.
+  /// Whether it may have become bad, or good, since it was last looked at.
+  bool is_changed(Index f) const
+  {
+    const std::array<Index, 3> v = corners(f);
+    return is_changed_[v[0]] != 0 || is_changed_[v[1]] != 0 || is_changed_[v[2]] != 0;
+  }
+
+  /// Whether a face turned far, became worse than is allowed or came to violate a limit.
   bool is_bad(Index f, const Buffer<Vector_3>& before) const
   {
     const auto [a, b, c] = corners(f);
     const Vector_3 old = (before[b] - before[a]).cross(before[c] - before[a]);
-    return surface_.normal(3 * f).dot(old) < min_turn * old.norm() || !target_.are_within_limits(f, max_distance_);
+    return surface_.normal(3 * f).dot(old) < min_turn * old.norm() || loses_quality(f, before) ||
+           !target_.are_within_limits(f, max_distance_);
+  }
+
+  bool loses_quality(Index f, const Buffer<Vector_3>& before) const
+  {
+    const auto [a, b, c] = corners(f);
+    if (surface_.has_quality(a, b, c, thresholds_.min_quality)) return false;
+    const auto& m = surface_.metrics;
+    return surface_.quality(a, b, c) < face_quality(m[a], m[b], m[c], before[b] - before[a], before[c] - before[a]);
   }
 
   bool keeps_tolerance(Index f) const
@@ -151,19 +188,20 @@ private:
   }
 
   static constexpr double share_of_largest = 0.95; // faces that reach it stay: the largest distance does not grow
-  static constexpr double max_move = 0.5;   // of a vertex, in largest distances
+  static constexpr double max_move = 0.5;   // of a vertex in a step, in largest distances
   static constexpr double damping = 0.8;    // the block Jacobi iteration has eigenvalues from 1/2 to 2
   static constexpr double min_turn = 0.5;
+  static constexpr int max_halvings = 3;    // of a way that makes a face bad
 
   const Execution& execution_;
   Surface& surface_;
   const Mesh_view& mesh_;
   const Points& target_;
-  double attraction_;
+  Fitting_thresholds thresholds_;
   double max_distance_ = 0;
   Buffer<Vector_3> places_, before_;
   Buffer<Equations> equations_;
-  Buffer<std::uint8_t> is_bad_;
+  Buffer<std::uint8_t> is_bad_, is_changed_;
 };
 
 } // namespace Surface_mesh_adaptation
