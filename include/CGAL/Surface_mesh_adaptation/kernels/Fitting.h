@@ -116,8 +116,8 @@ private:
     surface_.points[v] += length > longest ? Vector_3(longest / length * d) : d;
   }
 
-  /// Takes half of its way since `before` back from the corners of the faces that have become bad, a few times, then all
-  /// of it, until there are none.
+  /// Takes half of their way since `before` back from the corners of the faces that have become bad, a few times, then all
+  /// of it, until there are none: a face with no corner away from there counts as good.
   template <class IsBad>
   void take_back(const Buffer<Vector_3>& before, const IsBad& is_bad)
   {
