@@ -188,6 +188,7 @@ SMA::Adaptation_report adapt(const Options& options, const Execution& execution,
       .output_metric_map(output_metric)
       .tolerance(tolerance)
       .fit_to_surface(options.fit)
+      .shape_weight_of_fit(options.shape_weight.value_or(SMA::default_shape_weight))
       .visitor(std::ref(progress));
   SMA::Adaptation_report report = with_metric_field(options, mesh, [&](const auto& field) {
     return blaming(options.input, [&] { return SMA::adapt_surface_mesh(execution, mesh.mesh, field, parameters); });

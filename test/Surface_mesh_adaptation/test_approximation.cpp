@@ -313,13 +313,37 @@ TEST(Fit_to_surface, comes_nearer_to_real_meshes)
     SMA::adapt_surface_mesh(on_surface, field, flat);
     const auto report = SMA::adapt_surface_mesh(fitted, field, flat.fit_to_surface(true));
     const auto before = original.distance_to(on_surface, 50000), after = original.distance_to(fitted, 50000);
-    EXPECT_LT(after.rms, 0.67 * before.rms);
+    EXPECT_LT(after.rms, 0.55 * before.rms);
     EXPECT_LT(after.largest, before.largest);
     const Soup result = shapes::soup(fitted);
     EXPECT_TRUE(checks::is_manifold(result));
     EXPECT_GT(checks::least_area(result), 0);
     EXPECT_GT(report.final.min_quality, 0.2);
   }
+}
+
+TEST(Fit_to_surface, comes_the_nearer_the_less_the_shape_counts)
+{
+  const Mesh input = real_mesh<Mesh>("fandisk");
+  const distances::Original original(input);
+  const SMA::Uniform_metric_field field(shapes::soup(input).mean_edge_length());
+  double rms = std::numeric_limits<double>::infinity(), quality = 1;
+  for (const double weight : {0.5, 0.02, 0.002}) {
+    Mesh mesh = input;
+    const auto report = SMA::adapt_surface_mesh(
+      mesh, field,
+      params::surface_reconstruction(SMA::Flat_reconstruction()).fit_to_surface(true).shape_weight_of_fit(weight));
+    const double next = original.distance_to(mesh, 50000).rms;
+    EXPECT_LT(next, 0.8 * rms);
+    EXPECT_LT(report.final.mean_quality, quality);
+    rms = next;
+    quality = report.final.mean_quality;
+  }
+  Mesh mesh = input;
+  for (const double weight : {0.0, -1.0, 1.1, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(SMA::adapt_surface_mesh(mesh, field, params::fit_to_surface(true).shape_weight_of_fit(weight)),
+                 SMA::Invalid_parameter_error);
+  EXPECT_TRUE(checks::is_identical(shapes::soup(mesh), shapes::soup(input)));
 }
 
 TEST(Fit_to_surface, leaves_what_is_flat_and_what_is_constrained)

@@ -281,6 +281,7 @@ TEST_F(Adapt_mesh, refuses_a_command_line_that_makes_no_sense)
   expect_failure(2, "in.off out.off --size 0.1 --hmin 0.1", "--hmin");
   expect_failure(2, "in.off out.off --curvature 0.1 --hmin 0.2 --hmax 0.1", "--hmin");
   expect_failure(2, "in.off out.off --size 0.1 --no-features --feature-angle 30", "--feature-angle");
+  expect_failure(2, "in.off out.off --size 0.1 --shape-weight 0.1", "--fit");
   expect_failure(2, "in.off out.off --size 0.1 --execution threads", "--execution");
   expect_failure(2, "in.off out.off --size 0.1 --execution sequential --threads 2", "--threads");
   expect_failure(2, "in.off out.off --size 0.1 --quiet --verbose", "--quiet");
@@ -289,10 +290,12 @@ TEST_F(Adapt_mesh, refuses_a_command_line_that_makes_no_sense)
 TEST_F(Adapt_mesh, refuses_numbers_out_of_range)
 {
   for (const std::string option : {"--size", "--curvature", "--curvature 0.01 --hmin", "--curvature 0.01 --hmax",
-                                   "--size 0.1 --rounds", "--size 0.1 --threads", "--size 0.1 --feature-angle"})
+                                   "--size 0.1 --rounds", "--size 0.1 --threads", "--size 0.1 --feature-angle",
+                                   "--size 0.1 --fit --shape-weight"})
     for (const std::string value : {"0", "-1", "nan", "inf", "abc", "1e999", "''"})
       expect_failure(2, "in.off out.off " + option + "=" + value);
   expect_failure(2, "in.off out.off --size 0.1 --feature-angle 181", "--feature-angle");
+  expect_failure(2, "in.off out.off --size 0.1 --fit --shape-weight 1.1", "--shape-weight");
   expect_failure(2, "in.off out.off --size 0.1 --rounds 2.5", "rounds");
 }
 
@@ -306,7 +309,10 @@ TEST_F(Adapt_mesh, lets_faces_run_through_the_surface)
       sum += ((soup.points[t[0]] + soup.points[t[1]] + soup.points[t[2]]) / 3).norm() - 1;
     return sum / double(soup.triangles.size());
   };
-  EXPECT_LT(std::abs(mean_height("--fit")), 0.3 * std::abs(mean_height("")));
+  const double fitted = mean_height("--fit"), in_better_shape = mean_height("--fit --shape-weight 1");
+  EXPECT_LT(std::abs(fitted), 0.3 * std::abs(mean_height("")));
+  EXPECT_LT(std::abs(in_better_shape), 0.3 * std::abs(mean_height("")));
+  EXPECT_NE(fitted, in_better_shape);
 }
 
 TEST_F(Adapt_mesh, keeps_a_tolerance_and_says_so)

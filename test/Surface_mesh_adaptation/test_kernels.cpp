@@ -7,6 +7,7 @@
 #include "policies.h"
 #include "shapes.h"
 
+#include <CGAL/Surface_mesh_adaptation/kernels/centering.h>
 #include <CGAL/Surface_mesh_adaptation/metric.h>
 #include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
 #include <CGAL/Surface_mesh_adaptation/refine.h>
@@ -500,6 +501,29 @@ TEST(Relocate, moves_balanced_curves_to_where_the_faces_are_equilateral)
   Mesh mesh = shapes::mesh<Mesh>(skewed);
   SMA::relocate(mesh, SMA::Uniform_metric_field(1), params::number_of_iterations(50));
   EXPECT_GT(checks::mean_quality(shapes::soup(mesh)), 0.99);
+}
+
+TEST(Displacement_to_center, vanishes_in_the_centre_of_a_regular_star_and_leads_back_to_it)
+{
+  const Vector_3 normal(0, 0, 1);
+  for (const double stretch : {1.0, 4.0}) { // a hexagon of unit edges in the metric, stretched in space
+    const SMA::Anisotropic_metric metric{SMA::Metric_tensor_3(1 / (stretch * stretch), 0, 1, 0, 0, 1)};
+    const auto corner = [&](int i) {
+      const double angle = i * shapes::pi / 3;
+      return Vector_3(stretch * std::cos(angle), std::sin(angle), 0);
+    };
+    const auto displacement = [&](const Vector_3& p) {
+      return SMA::displacement_to_center(p, normal, metric, [&](const auto& add) {
+        for (int i = 0; i < 6; ++i) add(corner(i), metric, corner(i + 1), metric);
+      });
+    };
+    EXPECT_LT(displacement(Vector_3::Zero()).norm(), 1e-14);
+    for (const Vector_3& p : {Vector_3(0.1 * stretch, 0, 0), Vector_3(0, 0.1, 0), Vector_3(-0.2 * stretch, 0.2, 0.1)}) {
+      const Vector_3 left = p + displacement(p), flat(p.x(), p.y(), 0);
+      EXPECT_DOUBLE_EQ(left.z(), p.z());
+      EXPECT_LT(metric.length(left - Vector_3(0, 0, left.z())), 0.7 * metric.length(flat));
+    }
+  }
 }
 
 TEST(Relocate, raises_the_mean_and_the_least_quality)

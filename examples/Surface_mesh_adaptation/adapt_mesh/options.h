@@ -36,6 +36,7 @@ struct Options
   std::optional<double> gradation;
   double tolerance = 0;
   bool fit = false;
+  std::optional<double> shape_weight;
   double hmin = 0;
   double hmax = 0;
   std::optional<double> feature_angle; ///< in degrees
@@ -88,6 +89,8 @@ inline po::options_description described_options(Options& o)
      "it; if nothing else says how fine the mesh is to be, the curvature does such that this is likely")
     ("fit", po::bool_switch(&o.fit),
      "let the faces run through the surface instead of touching it with their vertices, and so nearer to it")
+    ("shape-weight", po::value<double>()->value_name("W")->notifier([&](double w) { o.shape_weight = w; }),
+     "what the shape of the faces counts with --fit, up to 1: the smaller, the nearer and the worse shaped (default: 0.02)")
     ("rounds", po::value(&o.rounds)->value_name("N"), "number of rounds of the kernels")
     ("threads", po::value(&o.threads)->value_name("N"), "number of threads (default: all)")
     ("execution", po::value(&o.execution)->value_name("WHICH"),
@@ -122,6 +125,8 @@ inline void check_positive(const po::variables_map& given, const Options& o)
     throw Usage_error("--gradation must be at least 1");
   if (o.feature_angle && !(*o.feature_angle > 0 && *o.feature_angle <= 180))
     throw Usage_error("--feature-angle must be an angle in degrees, above 0 and up to 180");
+  if (o.shape_weight && !(*o.shape_weight > 0 && *o.shape_weight <= 1))
+    throw Usage_error("--shape-weight must be above 0 and up to 1");
 }
 
 inline void check_consistent(const Options& o)
@@ -142,6 +147,7 @@ inline void check_consistent(const Options& o)
   if (o.size > 0 && (o.vertices > 0 || o.gradation)) throw Usage_error("--vertices and --gradation contradict --size");
   if (o.hmin > 0 && o.hmax > 0 && o.hmin > o.hmax) throw Usage_error("--hmin is larger than --hmax");
   if (o.no_features && o.feature_angle) throw Usage_error("--feature-angle contradicts --no-features");
+  if (o.shape_weight && !o.fit) throw Usage_error("--shape-weight needs --fit");
   if (o.quiet && o.verbose) throw Usage_error("--quiet contradicts --verbose");
   if (o.execution == "sequential" && o.threads > 1) throw Usage_error("--threads needs a parallel --execution");
 }

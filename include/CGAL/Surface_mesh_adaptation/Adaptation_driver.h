@@ -28,6 +28,9 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+/// What the shape of the faces counts against the distance where vertices are fitted to the surface.
+constexpr double default_shape_weight = 0.02;
+
 template <class Surface, class Execution, class Visitor>
 class Adaptation_driver
 {
@@ -42,9 +45,10 @@ public:
 
   /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, a few more in a scaled metric,
   /// several times. In the end the vertices are fitted to the surface if `is_fitted`; `std::false_type` spares users the
-  /// time to compile that.
+  /// time to compile that. The smaller the `shape_weight`, the nearer they come.
   template <class IsFitted = std::false_type>
-  Adaptation_report run(std::size_t rounds, double number_of_vertices = 0, IsFitted is_fitted = {})
+  Adaptation_report run(std::size_t rounds, double number_of_vertices = 0, IsFitted is_fitted = {},
+                        double shape_weight = default_shape_weight)
   {
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
@@ -55,7 +59,7 @@ public:
     if (number_of_vertices > 0) meet_number(number_of_vertices);
     refinement_.compact();
     if constexpr (!std::is_same_v<IsFitted, std::false_type>)
-      if (is_fitted) fit();
+      if (is_fitted) fit(shape_weight);
     report_.final = number_of_vertices > 0 || is_fitted ? mesh_statistics(execution_, surface_) : current();
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report_;
@@ -193,16 +197,23 @@ private:
     run_kernel("relocate", max_relocate_sweeps, relocate);
   }
 
-  void fit()
+  void fit(double shape_weight)
   {
     run_kernel("fit", 1, [&](Sweep_counts& counts) {
       Sampled_points points(execution_, surface_);
       ++counts.sweeps;
       counts.candidates += surface_.mesh.number_of_vertices();
-      Fitting fitting(execution_, surface_, points, {attraction_of_fit, min_fitted_quality});
+      Fitting fitting(execution_, surface_, points, {shape_weight, min_fitted_quality, true});
       // vertices cross bends of the input, so faces come to see others
-      return counts.applied += fitting.sweep(steps_of_fit, [&] { points.sample(execution_); });
+      return counts.applied += fitting.sweep(steps_of_fit(shape_weight), [&] { points.sample(execution_); });
     });
+  }
+
+  /// With less weight vertices go farther, and need more steps for that.
+  static int steps_of_fit(double shape_weight)
+  {
+    const double steps = least_steps_of_fit * std::sqrt(default_shape_weight / shape_weight);
+    return int(std::clamp(std::ceil(steps), double(least_steps_of_fit), double(max_steps_of_fit)));
   }
 
   /// Whether so few operations are left that they can wait for the next round.
@@ -264,8 +275,7 @@ private:
   static constexpr double largest_scale = 1.2;           // of the metric meanwhile, its logarithm: lengths by 1.8
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
-  static constexpr int steps_of_fit = 4;
-  static constexpr double attraction_of_fit = 0.2;       // with less, vertices move along the surface, out of shape
+  static constexpr int least_steps_of_fit = 4, max_steps_of_fit = 16;
   static constexpr double min_fitted_quality = 0.5;
   static constexpr double adapted_share = 0.95;          // of the edges in range
   static constexpr double least_gain = 0.0015;           // in the share of edges in range or in mean quality

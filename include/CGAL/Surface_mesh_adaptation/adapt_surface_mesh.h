@@ -16,18 +16,30 @@ namespace Surface_mesh_adaptation {
 
 namespace internal {
 
+/// \throws Invalid_parameter_error
+template <class NamedParameters>
+double shape_weight_of_fit(const NamedParameters& np)
+{
+  const double weight = choose(np, internal_np::shape_weight_of_fit, default_shape_weight);
+  if (!(weight > 0 && weight <= 1))
+    throw Invalid_parameter_error("the shape weight of the fit must be above 0 and up to 1");
+  return weight;
+}
+
 /// `adapt_surface_mesh` with a policy that is known at run time only: compiled once for all policies.
 template <class TriangleMesh, class MetricField, class NamedParameters>
 Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, const MetricField& field,
                         const NamedParameters& np)
 {
   const std::size_t rounds = choose(np, CGAL::internal_np::number_of_iterations, default_number_of_rounds);
+  const double shape_weight = shape_weight_of_fit(np);
   Adaptation_visitor nothing;
   auto visitor_parameter = choose(np, CGAL::internal_np::visitor, std::ref(nothing));
   auto& visitor = unwrap(visitor_parameter);
   return adapt_in_place(execution, mesh, field, np, [&](const auto& policy, auto& surface) {
     return Adaptation_driver(policy, surface, visitor)
-      .run(rounds, surface.background().number_of_vertices(), choose(np, internal_np::fit_to_surface, std::false_type()));
+      .run(rounds, surface.background().number_of_vertices(),
+           choose(np, internal_np::fit_to_surface, std::false_type()), shape_weight);
   });
 }
 
@@ -91,10 +103,16 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNEnd
   \cgalParamNBegin{fit_to_surface}
     \cgalParamDescription{whether the vertices leave the surface in the end so that the faces run through it, instead of
-                          touching it from one side: .3 to .8 of the rms distance, and edges and faces fit the metric a
+                          touching it from one side: .2 to .7 of the rms distance, and edges and faces fit the metric a
                           bit less. Corners and constrained vertices stay.}
     \cgalParamType{`bool`}
     \cgalParamDefault{`false`: the vertices are on the surface}
+  \cgalParamNEnd
+  \cgalParamNBegin{shape_weight_of_fit}
+    \cgalParamDescription{what the shape of the faces counts in that: the smaller, the nearer and the worse shaped.
+                          Small weights take up to four times as long.}
+    \cgalParamType{`double`, above 0 and up to 1}
+    \cgalParamDefault{`0.02`}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_normal_map}
     \cgalParamDescription{the outer normals of the surface at all vertices, of any length but 0; not used at sharp

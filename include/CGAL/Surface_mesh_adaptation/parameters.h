@@ -20,6 +20,7 @@ enum detect_features_t { detect_features };
 enum output_metric_map_t { output_metric_map };
 enum surface_reconstruction_t { surface_reconstruction };
 enum fit_to_surface_t { fit_to_surface };
+enum shape_weight_of_fit_t { shape_weight_of_fit };
 enum vertex_shape_operator_map_t { vertex_shape_operator_map };
 enum vertex_attribute_maps_t { vertex_attribute_maps };
 enum maximum_normal_deviation_t { maximum_normal_deviation };

@@ -16,6 +16,7 @@ CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::detect_feat
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::output_metric_map_t, output_metric_map)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::surface_reconstruction_t, surface_reconstruction)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::fit_to_surface_t, fit_to_surface)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::shape_weight_of_fit_t, shape_weight_of_fit)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::tolerance_t, tolerance)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::vertex_attribute_maps_t, vertex_attribute_maps)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::vertex_shape_operator_map_t, vertex_shape_operator_map)

@@ -6,7 +6,8 @@
 // average. Those are `Represented_points` of a simplified mesh or `Sampled_points` of an adapted one.
 //
 // Least squares over these points of their distance from the faces, in the direction of the closest point: damped block
-// Jacobi steps of Gauss-Newton.
+// Jacobi steps of Gauss-Newton, with a share of the last one. Where on the surface a vertex comes to lie, the points decide
+// at bends of the input, along which edges come to run, and elsewhere what it is attracted to.
 //
 // Conflict neighbourhood: none. Phases: faces (normal equations of their corners), vertices (step), faces (limits).
 // Invariants: connectivity and locations; corners stay; no face comes to violate a limit, turns by more than 60 degrees or
@@ -20,6 +21,7 @@
 #include <CGAL/Surface_mesh_adaptation/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/internal/closest_point.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Cholesky.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/centering.h>
 
 #include <Eigen/Core>
 
@@ -28,14 +30,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
 struct Fitting_thresholds
 {
-  double attraction;       ///< of a vertex to where it is, of that to the points
-  double min_quality = 0;  ///< no face below gets worse
+  double attraction;         ///< of a vertex to where it is, of that to the points
+  double min_quality = 0;    ///< no face below gets worse
+  bool is_centering = false; ///< smooth vertices are attracted to the centre of their faces: that keeps these in shape
 };
 
 template <class Surface, class Execution, class Points>
@@ -53,6 +57,7 @@ public:
   {
     max_distance_ = share_of_largest * target_.largest_distance(execution_);
     places_ = surface_.points;
+    before_ = surface_.points;
     for (int i = 0; i < steps; ++i) {
       if (i > 0) renew();
       step();
@@ -68,6 +73,7 @@ private:
     for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
       if (!mesh_.is_removed_face(Index(f))) assemble(Index(f));
     }, heavy_chunk_length);
+    std::swap(last_, before_);
     before_ = surface_.points;
     for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
       if (!mesh_.is_removed_vertex(Index(v)) && surface_.vertex_class(Index(v)) != Vertex_class::corner) step(Index(v));
@@ -110,10 +116,25 @@ private:
     const double pull = thresholds_.attraction * e.matrix.trace();
     if (!(pull > 0)) return;
     e.matrix += pull * Matrix_3::Identity();
-    const Vector_3 d = damping * internal::Cholesky<3>(e.matrix).solve(e.right_side);
+    if (thresholds_.is_centering && surface_.vertex_class(v) == Vertex_class::smooth)
+      e.right_side += pull * to_center(v);
+    const Vector_3 d =
+      damping * internal::Cholesky<3>(e.matrix).solve(e.right_side) + momentum * (before_[v] - last_[v]);
     if (!d.allFinite()) return;
     const double length = d.norm(), longest = max_move * max_distance_;
     surface_.points[v] += length > longest ? Vector_3(longest / length * d) : d;
+  }
+
+  /// From where the smooth vertex `v` was before the step.
+  Vector_3 to_center(Index v) const
+  {
+    const auto& metrics = surface_.metrics;
+    return displacement_to_center(before_[v], surface_.normals[v], metrics[v], [&](const auto& add) {
+      mesh_.for_each_outgoing(v, [&](Index h) {
+        const Index a = mesh_.target(h), b = mesh_.apex(h);
+        add(before_[a], metrics[a], before_[b], metrics[b]);
+      });
+    });
   }
 
   /// Takes half of their way since `before` back from the corners of the faces that have become bad, a few times, then all
@@ -190,6 +211,7 @@ private:
   static constexpr double share_of_largest = 0.95; // faces that reach it stay: the largest distance does not grow
   static constexpr double max_move = 0.5;   // of a vertex in a step, in largest distances
   static constexpr double damping = 0.8;    // the block Jacobi iteration has eigenvalues from 1/2 to 2
+  static constexpr double momentum = 0.3;
   static constexpr double min_turn = 0.5;
   static constexpr int max_halvings = 3;    // of a way that makes a face bad
 
@@ -199,7 +221,7 @@ private:
   const Points& target_;
   Fitting_thresholds thresholds_;
   double max_distance_ = 0;
-  Buffer<Vector_3> places_, before_;
+  Buffer<Vector_3> places_, last_, before_; ///< at the start of the sweep, of the last step, of this one
   Buffer<Equations> equations_;
   Buffer<std::uint8_t> is_bad_, is_changed_;
 };

@@ -20,6 +20,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/centering.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
 #include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
@@ -288,47 +289,13 @@ private:
     return is_unfolded(surface_, v, moved.point, attempt.stands_still, attempt.is_put_off);
   }
 
-  /// Where the faces around a vertex draw it: the mean of two displacements for each, weighted by the masses of the
-  /// faces, to its centre of mass, which makes the mesh as dense as the metric asks for, and to where it would be
-  /// equilateral in the metric.
-  struct Pull
-  {
-    Vector_3 edges = Vector_3::Zero();        ///< masses times the sums of the two edge vectors of each face
-    Vector_3 turned_sides = Vector_3::Zero(); ///< the sum of the weighted sides, each by a quarter turn
-    double mass = 0;
-
-    /// Adds a face but for its weighted side, which is returned.
-    Vector_3 add(const Metric& metric, const Neighbor& a, const Neighbor& b, const Vector_3& ea, const Vector_3& eb,
-                 double area)
-    {
-      const double m = face_mass(metric, a.metric, b.metric, ea, eb, area);
-      edges += m * (ea + eb);
-      mass += m;
-      return weighted_side(metric, a.metric, b.metric, eb - ea, area);
-    }
-
-    /// `share` of the way is that to where the faces would be equilateral.
-    Vector_3 displacement(double share) const
-    {
-      if (!(mass > 0)) return Vector_3::Zero();
-      const double height = std::sqrt(3.0) / 2; // of an equilateral triangle
-      return (((1 - share) / 3 + share / 2) * edges + share * height * turned_sides) / mass;
-    }
-  };
-
   /// The displacement of the smooth vertex `v` to the centre of the faces around it, in the tangent plane.
   Vector_3 displacement_to_center(Index v, const Star& star) const
   {
-    const Vector_3 &p = surface_.points[v], &normal = surface_.normals[v];
-    Pull pull;
-    Vector_3 sides = Vector_3::Zero();
-    star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
-      const Vector_3 ea = a.point - p, eb = b.point - p;
-      sides += pull.add(surface_.metrics[v], a, b, ea, eb, ea.cross(eb).dot(normal));
-    });
-    pull.turned_sides = normal.cross(sides);
-    const Vector_3 sum = pull.displacement(share_of_shape);
-    return sum - sum.dot(normal) * normal;
+    return Surface_mesh_adaptation::displacement_to_center(
+      surface_.points[v], surface_.normals[v], surface_.metrics[v], [&](const auto& add) {
+        star.for_each_face([&](const Neighbor& a, const Neighbor& b) { add(a.point, a.metric, b.point, b.metric); });
+      });
   }
 
   /// The displacement of the curve vertex `v` to the centre of the faces around it, along its curve. Each face has a
@@ -340,7 +307,9 @@ private:
     star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
       const Vector_3 ea = a.point - p, eb = b.point - p, across = ea.cross(eb);
       const double area = across.norm();
-      if (area > 0) pull.turned_sides += (across / area).cross(pull.add(surface_.metrics[v], a, b, ea, eb, area));
+      if (!(area > 0)) return;
+      const Vector_3 side = pull.add(surface_.metrics[v], a.metric, b.metric, ea, eb, area);
+      pull.turned_sides += (across / area).cross(side);
     });
     return pull.displacement(share_of_shape_on_curves).dot(tangent);
   }
@@ -492,7 +461,6 @@ private:
   // Alternating the two kills errors over many faces several times faster, and with the plain step in between also
   // those from face to face, which over-relaxation alone keeps alive.
   static constexpr double over_relaxation = 2.2, plain_relaxation = 1.0;
-  static constexpr double share_of_shape = 0.4; // more shape costs conformity in length
   static constexpr double share_of_shape_on_curves = 0.7; // where the lengths are looked after by themselves
   static constexpr double balanced_length = 1.25; // of curve edges: the faces beside may pull, but longer chords cut
   static constexpr double min_improvement = 1.0 + 1e-4;
