@@ -103,7 +103,7 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNEnd
   \cgalParamNBegin{fit_to_surface}
     \cgalParamDescription{whether the vertices leave the surface in the end so that the faces run through it, instead of
-                          touching it from one side: .2 to .7 of the rms distance, and edges and faces fit the metric a
+                          touching it from one side: .2 to .6 of the rms distance, and edges and faces fit the metric a
                           bit less. Corners and constrained vertices stay.}
     \cgalParamType{`bool`}
     \cgalParamDefault{`false`: the vertices are on the surface}
