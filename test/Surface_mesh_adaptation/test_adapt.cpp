@@ -540,6 +540,27 @@ TEST(Adapt, follows_the_sizes_of_a_formula)
   EXPECT_GT(double(in_range), 0.93 * double(edges));
 }
 
+TEST(Adapt, gives_a_curve_fewer_vertices_where_sizes_grow_off_it)
+{
+  constexpr double size_on_curve = 0.06;
+  const auto adapt = [](double growth) {
+    const auto size = [=](const Vector_3& p) { return (std::min)(size_on_curve + growth * p.z(), 0.3); };
+    Mesh mesh = shapes::mesh<Mesh>(shapes::open_cylinder(64, 32, 2, 0.25));
+    const SMA::Mesh_statistics reached = SMA::adapt_surface_mesh(mesh, SMA::Analytic_metric_field(size)).final;
+    const auto edges = mesh.edges();
+    const auto n = std::count_if(edges.begin(), edges.end(), [&](Mesh::Edge_index e) {
+      return mesh.is_border(e) && mesh.point(mesh.vertex(e, 0)).z() < 0.1;
+    });
+    return std::make_pair(2 * shapes::pi / double(n) / size_on_curve, reached);
+  };
+  EXPECT_NEAR(adapt(0).first, 1, 0.05);
+  // half of it is what the edge is at the next row, about a size further up: 2 / (1 + 1 / 1.4)
+  const auto [length, reached] = adapt(std::log(1.5));
+  EXPECT_NEAR(length, 1.17, 0.05);
+  EXPECT_GT(reached.in_range, 0.99);
+  EXPECT_GT(reached.mean_quality, 0.963);
+}
+
 /// Size 0.3 along the x axis and 0.03 across.
 Metric_tensor_3 stretched(const Vector_3&) { return Metric_tensor_3(1 / 0.09, 0, 1 / 0.0009, 0, 0, 1 / 0.0009); }
 

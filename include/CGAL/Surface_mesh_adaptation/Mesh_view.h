@@ -54,6 +54,8 @@ public:
   Index target(Index h) const { return corner[next(h)]; }
   /// The vertex across the halfedge in its face.
   Index apex(Index h) const { return corner[previous(h)]; }
+  /// The end of the halfedge that is not `v`.
+  Index other_end(Index h, Index v) const { return source(h) == v ? target(h) : source(h); }
 
   bool is_border(Index h) const { return twin[h] == no_index; }
   bool is_feature(Index h) const { return curve[h] != no_curve; }

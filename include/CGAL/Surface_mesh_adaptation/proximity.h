@@ -77,7 +77,7 @@ Metric_tensor_3 tensor_across_strip(const Reference& reference, Index h, const V
     const Vector_3 normal_of_other_side = face_normal(mesh, reference.points, mesh.twin[h]).normalized();
     if (std::abs(normal_of_other_side.dot(direction)) > least_sine) direction = normal_of_other_side;
   }
-  const Index w = mesh.source(h) == v ? mesh.target(h) : mesh.source(h);
+  const Index w = mesh.other_end(h, v);
   const Vector_3 tangent = reference.features.tangent(mesh.curve[h], v, w);
   const Vector_3 covector =
     height_of_equilateral_triangle / direction.dot(way) * (direction - direction.dot(tangent) * tangent);

@@ -3,7 +3,7 @@
 // How many vertices a feature curve is to have. An edge on a curve cannot be swapped, and vertices leave the curve in
 // one direction only, so edges that are split and collapsed one by one stay where halving left them: anywhere between
 // 1/sqrt 2 and sqrt 2, while the faces beside them want unit edges. What counts here is the mean length over a few
-// neighbouring edges; moves along the curve equalise these.
+// neighbouring edges, on the curve and beside it; moves along the curve equalise these.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_SPACING_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_SPACING_H
@@ -24,7 +24,27 @@ constexpr double max_curve_length = 2.0;
 /// Edges on each side of the one in question that decide with it: the mean length comes within 8 % of 1.
 constexpr int curve_reach = 3;
 
-/// Consecutive edges of a feature curve, with their lengths in the metric. Corners end it.
+/// Sizes beside a curve that are further than this factor from those on it count as if they were not.
+constexpr double max_ratio_beside = 1.5;
+
+/// The metric length of the curve edge of `h` as it counts here: the mean of that on the curve and that which it would
+/// have at the apexes of the faces beside it. Where sizes grow off a curve, the next row has room for fewer vertices than
+/// the curve has: with as many on the curve as it is long, faces would lean. The same to the bit from both sides.
+template <class Surface>
+double spacing_length(const Surface& surface, Index h)
+{
+  const Mesh_view& mesh = surface.mesh;
+  const Vector_3 e = surface.points[mesh.target(h)] - surface.points[mesh.source(h)];
+  const double on_curve = surface.length(h);
+  const auto at_apex = [&](Index side) {
+    return std::clamp(surface.metrics[mesh.apex(side)].length(e), on_curve / max_ratio_beside,
+                      max_ratio_beside * on_curve);
+  };
+  const double beside = mesh.is_border(h) ? at_apex(h) : 0.5 * (at_apex(h) + at_apex(mesh.twin[h]));
+  return 0.5 * (on_curve + beside);
+}
+
+/// Consecutive edges of a feature curve, with their lengths in the metric as they count here. Corners end it.
 struct Curve_window
 {
   double length = 0;
@@ -43,21 +63,30 @@ struct Curve_window
   bool has_too_many_edges() const { return length * length < edges * (edges - 1); }
 };
 
-/// The neighbour of the curve vertex `v` along its curve that is not `from`; `no_index` if there is none or `v` is a
-/// corner.
+/// The edge of the curve vertex `v` along its curve that does not lead to `from`, as a halfedge in either direction;
+/// `no_index` if there is none or `v` is a corner.
 template <class Surface>
-Index next_on_curve(const Surface& surface, Index v, Index from)
+Index next_edge_on_curve(const Surface& surface, Index v, Index from)
 {
   if (surface.vertex_class(v) != Vertex_class::curve) return no_index;
   const Mesh_view& mesh = surface.mesh;
   const Index curve = surface.locations[v].cell;
   Index next = no_index, last = no_index;
   mesh.for_each_outgoing(v, [&](Index h) {
-    if (mesh.curve[h] == curve && mesh.target(h) != from) next = mesh.target(h);
+    if (mesh.curve[h] == curve && mesh.target(h) != from) next = h;
     last = Mesh_view::previous(h);
   });
-  if (mesh.is_border(last) && mesh.curve[last] == curve && mesh.source(last) != from) next = mesh.source(last);
+  if (mesh.is_border(last) && mesh.curve[last] == curve && mesh.source(last) != from) next = last;
   return next;
+}
+
+/// The neighbour of the curve vertex `v` along its curve that is not `from`; `no_index` if there is none or `v` is a
+/// corner.
+template <class Surface>
+Index next_on_curve(const Surface& surface, Index v, Index from)
+{
+  const Index h = next_edge_on_curve(surface, v, from);
+  return h == no_index ? no_index : surface.mesh.other_end(h, v);
 }
 
 /// The two neighbours of `v` along its curve; `no_index` for those that there are not.
@@ -75,11 +104,11 @@ void add_edges_behind(const Surface& surface, Index a, Index b, Index end, int n
                       Curve_window& window)
 {
   for (; n > 0 && b != end && may_pass(b); --n) {
-    const Index c = next_on_curve(surface, b, a);
-    if (c == no_index) return;
-    window.add(surface.length(b, c));
+    const Index h = next_edge_on_curve(surface, b, a);
+    if (h == no_index) return;
+    window.add(spacing_length(surface, h));
     a = b;
-    b = c;
+    b = surface.mesh.other_end(h, b);
   }
 }
 
@@ -94,11 +123,12 @@ bool is_split_on_curve(const Surface& surface, Index h)
   if (length < 1) return false;
   if (length >= max_curve_length) return true;
   Curve_window window;
-  window.add(length);
+  const double spacing = spacing_length(surface, h);
+  window.add(spacing);
   const auto always = [](Index) { return true; };
   add_edges_behind(surface, b, a, b, curve_reach, always, window);
   add_edges_behind(surface, a, b, a, curve_reach, always, window);
-  return window.has_too_few_edges() && length == window.longest;
+  return window.has_too_few_edges() && spacing == window.longest;
 }
 
 /// Whether the curve vertex `v` is one of too many, as far as can be seen without the rings of other vertices than
