@@ -203,7 +203,9 @@ private:
       Sampled_points points(execution_, surface_);
       ++counts.sweeps;
       counts.candidates += surface_.mesh.number_of_vertices();
-      Fitting fitting(execution_, surface_, points, {shape_weight, min_fitted_quality, true});
+      Fitting_thresholds thresholds{shape_weight, min_fitted_quality};
+      thresholds.is_centering = true;
+      Fitting fitting(execution_, surface_, points, thresholds);
       // vertices cross bends of the input, so faces come to see others
       return counts.applied += fitting.sweep(steps_of_fit(shape_weight), [&] { points.sample(execution_); });
     });

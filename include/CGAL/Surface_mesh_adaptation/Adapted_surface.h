@@ -272,6 +272,16 @@ public:
   /// The point of the surface where a vertex with the location `l` is put.
   Vector_3 point(const Location& l) const { return near_input(l, reference_->evaluate(l).position); }
 
+  /// The point `p` of the surface at `l`, drawn towards the point of the input that it lies above where the patch bulges
+  /// by much of the tolerance.
+  Vector_3 near_input(const Location& l, const Vector_3& p) const
+  {
+    if (!has_tolerance()) return p;
+    const Vector_3 flat = reference_->flat_point(l), bulge = p - flat;
+    const double length = bulge.norm(), largest = share_of_bulge * tolerance_->of_operations;
+    return length > largest ? Vector_3(flat + largest / length * bulge) : p;
+  }
+
   bool has_tolerance() const { return tolerance_ != nullptr; }
 
   /// What operations keep of the tolerance; infinite if there is none.
@@ -395,15 +405,6 @@ private:
   {
     const Metric metric = background_->at(*reference_, l, p);
     return {l, near_input(l, p.position), p.normal, scale_ == 1 ? metric : scaled(metric, scale_)};
-  }
-
-  /// `p` drawn towards the point of the input that it lies above, where the patch bulges by much of the tolerance.
-  Vector_3 near_input(const Location& l, const Vector_3& p) const
-  {
-    if (!has_tolerance()) return p;
-    const Vector_3 flat = reference_->flat_point(l), bulge = p - flat;
-    const double length = bulge.norm(), largest = share_of_bulge * tolerance_->of_operations;
-    return length > largest ? Vector_3(flat + largest / length * bulge) : p;
   }
 
   static constexpr double max_skew = 0.1;         // of a parallelogram, in lengths of the diagonal

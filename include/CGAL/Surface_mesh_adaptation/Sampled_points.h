@@ -48,9 +48,10 @@ public:
       for (std::size_t i = 0; i < places; ++i) {
         Location& l = locations_[places * f + i];
         const Vector_3 target = place(p, i);
-        l = surface_.reference().locate({l, surface_.reference().evaluate(l)}, target,
-                                        share_of_way * (p[i % 3] - target).norm()).location;
-        points_[places * f + i] = surface_.point(l);
+        const auto nearest = surface_.reference().locate({l, surface_.reference().evaluate(l)}, target,
+                                                         share_of_way * (p[i % 3] - target).norm());
+        l = nearest.location;
+        points_[places * f + i] = surface_.near_input(l, nearest.point.position);
       }
       weights_[f] = (p[1] - p[0]).cross(p[2] - p[0]).norm() / (2 * places);
     }, heavy_chunk_length);
