@@ -94,6 +94,9 @@ constexpr std::size_t shortest_isolated_ridge = 5, shortest_branch = 3;
 /// Faces that are less high than this part of their longest edge are slivers.
 constexpr double sliver_height = 0.125;
 
+/// Cosine of the angle, 150 degrees, by which faces turn where one of them is folded over.
+constexpr double cosine_of_fold = -0.866;
+
 /// One run of the detection: marks, corners, chains.
 class Feature_detection
 {
@@ -161,7 +164,7 @@ private:
     });
   }
 
-  /// Slivers that turn away from all their neighbours are folds rather than shapes. Their normals mean nothing: that of
+  /// Slivers that turn away from their neighbours are folds rather than shapes. Their normals mean nothing: that of
   /// the face behind the longest edge, on which a sliver lies, takes their place.
   template <class Execution>
   void unmark_slivers(const Execution& execution)
@@ -178,12 +181,24 @@ private:
     }
   }
 
-  /// Whether all edges of a face are ridges, and its height is a small part of its longest edge.
+  /// Whether a face is a sliver that turns away from all its neighbours; or is turned over at its longest edge and
+  /// another one, for folds may be divided into several slivers.
   bool is_fold(Index f) const
   {
-    const Index h = 3 * f;
-    if (is_feature_[h] != ridge || is_feature_[h + 1] != ridge || is_feature_[h + 2] != ridge) return false;
-    return normal(f).norm() < sliver_height * squared_length(longest_edge(f));
+    const Index longest = longest_edge(f);
+    if (is_feature_[longest] != ridge || normal(f).norm() >= sliver_height * squared_length(longest)) return false;
+    const auto others = {Mesh_view::next(longest), Mesh_view::previous(longest)};
+    return std::all_of(others.begin(), others.end(), [&](Index h) { return is_feature_[h] == ridge; }) ||
+           (is_turned_over(longest) && std::any_of(others.begin(), others.end(), [&](Index h) {
+             return is_feature_[h] == ridge && is_turned_over(h);
+           }));
+  }
+
+  /// Whether the faces of the ridge of `h` lie on each other.
+  bool is_turned_over(Index h) const
+  {
+    const Vector_3 a = normal(Mesh_view::face(h)), b = normal(Mesh_view::face(mesh_.twin[h]));
+    return a.dot(b) < cosine_of_fold * std::sqrt(a.squaredNorm() * b.squaredNorm());
   }
 
   Index longest_edge(Index f) const
