@@ -5,7 +5,7 @@
 // without the edges that lead from one feature curve to another and the faces with all corners on such curves: these
 // are as long and as wide as the surface has room there, whatever the size.
 //
-//     quality [--gradation RATIO] [MESH...]
+//     quality [--gradation RATIO] [--feature-angle DEGREES] [MESH...]
 
 #include "common.h"
 
@@ -19,10 +19,16 @@ using bench::Mesh;
 using bench::Point;
 namespace SMA = bench::SMA;
 
-template <class Field>
-SMA::Mesh_statistics adapt(Mesh mesh, const Field& field)
+struct Options
 {
-  return SMA::adapt_surface_mesh(mesh, field).final;
+  double gradation = SMA::default_gradation;
+  double feature_angle = 45;
+};
+
+template <class Field>
+SMA::Mesh_statistics adapt(Mesh mesh, const Field& field, const Options& options)
+{
+  return SMA::adapt_surface_mesh(mesh, field, SMA::parameters::feature_angle(options.feature_angle)).final;
 }
 
 void print(const SMA::Mesh_statistics& s)
@@ -61,28 +67,28 @@ void print_away_from_curves(const Mesh& mesh, Mesh::Property_map<Mesh::Edge_inde
   std::printf(" %.2f | %.3f |", 100 * double(in_range) / double(edges), quality / double(faces));
 }
 
-void print_uniform(Mesh mesh)
+void print_uniform(Mesh mesh, const Options& options)
 {
   const double size = 0.5 * bench::mean_edge_length(mesh);
   const auto is_curve_edge = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_curve", false).first;
-  const SMA::Mesh_statistics s = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size),
-                                                         SMA::parameters::edge_is_constrained_map(is_curve_edge))
-                                   .final;
+  const auto parameters =
+    SMA::parameters::edge_is_constrained_map(is_curve_edge).feature_angle(options.feature_angle);
+  const SMA::Mesh_statistics s = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size), parameters).final;
   print(s);
   std::printf(" %.1f |", s.min_angle);
   print_away_from_curves(mesh, is_curve_edge, size);
 }
 
-void print_row(const std::string& name, double gradation)
+void print_row(const std::string& name, const Options& options)
 {
   const Mesh mesh = bench::read_mesh(name);
   std::printf("| %s |", name.c_str());
-  print_uniform(mesh);
+  print_uniform(mesh, options);
   SMA::Curvature_metric_field curvature(0.001);
-  curvature.gradation = gradation;
-  print(adapt(mesh, curvature));
+  curvature.gradation = options.gradation;
+  print(adapt(mesh, curvature, options));
   curvature.anisotropic = true;
-  print(adapt(mesh, curvature));
+  print(adapt(mesh, curvature, options));
   std::printf("\n");
 }
 
@@ -90,9 +96,14 @@ void print_row(const std::string& name, double gradation)
 
 int main(int argc, char* argv[])
 {
-  const bool is_given = argc > 2 && std::string(argv[1]) == "--gradation";
-  const double gradation = is_given ? std::stod(argv[2]) : SMA::default_gradation;
-  std::vector<std::string> names(argv + (is_given ? 3 : 1), argv + argc);
+  Options options;
+  std::vector<std::string> names;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--gradation" && i + 1 < argc) options.gradation = std::stod(argv[++i]);
+    else if (word == "--feature-angle" && i + 1 < argc) options.feature_angle = std::stod(argv[++i]);
+    else names.push_back(word);
+  }
   if (names.empty())
     names = {"elephant", "bunny00", "armadillo", "camel", "knot2", "fandisk", "anchor_dense", "couplingdown",
              "rotor_small", "turbine", "blade", "lion-head", "mannequin-devil"};
@@ -100,6 +111,6 @@ int main(int argc, char* argv[])
               "| away from curves: in range | mean "
               "| curvature: vertices | in range | mean | worst | anisotropic: vertices | in range | mean | worst |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const std::string& name : names) print_row(name, gradation);
+  for (const std::string& name : names) print_row(name, options);
   return 0;
 }
