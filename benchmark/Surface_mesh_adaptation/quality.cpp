@@ -22,7 +22,7 @@ namespace SMA = bench::SMA;
 struct Options
 {
   double gradation = SMA::default_gradation;
-  double feature_angle = 45;
+  double feature_angle = SMA::Feature_parameters().ridge_angle;
 };
 
 template <class Field>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Sampled distances between two meshes, and CGAL's simplification by quadric errors to compare with. Shares no code
-// with
-// the library.
+// with the library.
 
 #ifndef TEST_SURFACE_MESH_ADAPTATION_DISTANCES_H
 #define TEST_SURFACE_MESH_ADAPTATION_DISTANCES_H

@@ -138,14 +138,16 @@ private:
     return (points_[mesh_.corner[h + 1]] - p).cross(points_[mesh_.corner[h + 2]] - p);
   }
 
-  bool is_ridge(Index h) const
+  bool is_ridge(Index h) const { return is_turned(h, cosine_of_ridge_); }
+
+  bool is_turned(Index h, double cosine) const
   {
-    return is_turned(normal(Mesh_view::face(h)), normal(Mesh_view::face(mesh_.twin[h])));
+    return is_turned(normal(Mesh_view::face(h)), normal(Mesh_view::face(mesh_.twin[h])), cosine);
   }
 
-  bool is_turned(const Vector_3& a, const Vector_3& b) const
+  static bool is_turned(const Vector_3& a, const Vector_3& b, double cosine)
   {
-    return a.dot(b) < cosine_of_ridge_ * std::sqrt(a.squaredNorm() * b.squaredNorm());
+    return a.dot(b) < cosine * std::sqrt(a.squaredNorm() * b.squaredNorm());
   }
 
   template <class Execution>
@@ -177,7 +179,7 @@ private:
       const Vector_3 n = normal(Mesh_view::face(mesh_.twin[longest]));
       set_mark(longest, none);
       for (const Index h : {Mesh_view::next(longest), Mesh_view::previous(longest)})
-        set_mark(h, is_turned(n, normal(Mesh_view::face(mesh_.twin[h]))) ? ridge : none);
+        set_mark(h, is_turned(n, normal(Mesh_view::face(mesh_.twin[h])), cosine_of_ridge_) ? ridge : none);
     }
   }
 
@@ -185,20 +187,10 @@ private:
   /// another one, for folds may be divided into several slivers.
   bool is_fold(Index f) const
   {
-    const Index longest = longest_edge(f);
+    const Index longest = longest_edge(f), a = Mesh_view::next(longest), b = Mesh_view::previous(longest);
     if (is_feature_[longest] != ridge || normal(f).norm() >= sliver_height * squared_length(longest)) return false;
-    const auto others = {Mesh_view::next(longest), Mesh_view::previous(longest)};
-    return std::all_of(others.begin(), others.end(), [&](Index h) { return is_feature_[h] == ridge; }) ||
-           (is_turned_over(longest) && std::any_of(others.begin(), others.end(), [&](Index h) {
-             return is_feature_[h] == ridge && is_turned_over(h);
-           }));
-  }
-
-  /// Whether the faces of the ridge of `h` lie on each other.
-  bool is_turned_over(Index h) const
-  {
-    const Vector_3 a = normal(Mesh_view::face(h)), b = normal(Mesh_view::face(mesh_.twin[h]));
-    return a.dot(b) < cosine_of_fold * std::sqrt(a.squaredNorm() * b.squaredNorm());
+    const auto is_over = [&](Index h) { return is_feature_[h] == ridge && is_turned(h, cosine_of_fold); };
+    return (is_feature_[a] == ridge && is_feature_[b] == ridge) || (is_over(longest) && (is_over(a) || is_over(b)));
   }
 
   Index longest_edge(Index f) const
