@@ -10,6 +10,23 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 namespace internal {
 
+/// A task as a pointer to it and a function that calls it, for as long as the task lives. With `std::function`, of which
+/// what copies and owns is compiled for each of some hundred tasks, programs take a quarter longer to compile.
+class Task_reference
+{
+public:
+  template <class Task>
+  explicit Task_reference(const Task& task)
+    : task_(&task), call_([](const void* t, std::size_t i) { (*static_cast<const Task*>(t))(i); })
+  {}
+
+  void operator()(std::size_t i) const { call_(task_, i); }
+
+private:
+  const void* task_;
+  void (*call_)(const void*, std::size_t);
+};
+
 /// Any execution policy behind one type, so that the kernels are compiled once for all of them. A task is a chunk of
 /// thousands of elements: the indirect call costs nothing.
 /// \cgalModels `AdaptationExecution`
@@ -19,7 +36,7 @@ public:
   template <class Execution>
   explicit Any_execution(const Execution& execution)
     : concurrency_(execution.concurrency())
-    , run_([execution](std::size_t n, const std::function<void(std::size_t)>& task) { execution.run(n, task); })
+    , run_([execution](std::size_t n, const Task_reference& task) { execution.run(n, task); })
   {}
 
   int concurrency() const { return concurrency_; }
@@ -27,12 +44,12 @@ public:
   template <class Task>
   void run(std::size_t number_of_tasks, const Task& task) const
   {
-    run_(number_of_tasks, std::ref(task));
+    run_(number_of_tasks, Task_reference(task));
   }
 
 private:
   int concurrency_;
-  std::function<void(std::size_t, const std::function<void(std::size_t)>&)> run_;
+  std::function<void(std::size_t, const Task_reference&)> run_;
 };
 
 } // namespace internal
