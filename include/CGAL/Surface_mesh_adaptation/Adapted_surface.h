@@ -201,7 +201,7 @@ public:
   {
     const Vector_3 n = (points[b] - points[a]).cross(points[c] - points[a]);
     const double length = n.norm();
-    return length > 0 ? Vector_3(n / length) : Vector_3(Vector_3::Zero());
+    return length > 0 ? n / length : Vector_3(Vector_3::Zero());
   }
 
   Vector_3 normal(Index h) const { return normal(mesh.source(h), mesh.target(h), mesh.apex(h)); }
@@ -279,7 +279,7 @@ public:
     if (!has_tolerance()) return p;
     const Vector_3 flat = reference_->flat_point(l), bulge = p - flat;
     const double length = bulge.norm(), largest = share_of_bulge * tolerance_->of_operations;
-    return length > largest ? Vector_3(flat + largest / length * bulge) : p;
+    return length > largest ? flat + largest / length * bulge : p;
   }
 
   bool has_tolerance() const { return tolerance_ != nullptr; }

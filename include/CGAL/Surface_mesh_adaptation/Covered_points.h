@@ -105,9 +105,9 @@ private:
     const auto corner = [&](Index k) -> const Vector_3& { return points[mesh.corner[3 * std::size_t(f) + k % 3]]; };
     for (Index k = 0; k < 3; ++k) {
       if (mesh.outgoing[mesh.corner[3 * std::size_t(f) + k]] == 3 * f + k) add(corner(k));
-      if (mesh.is_edge_owner(3 * f + k)) add(Vector_3((corner(k) + corner(k + 1)) / 2));
+      if (mesh.is_edge_owner(3 * f + k)) add((corner(k) + corner(k + 1)) / 2);
     }
-    add(Vector_3((corner(0) + corner(1) + corner(2)) / 3));
+    add((corner(0) + corner(1) + corner(2)) / 3);
   }
 
   template <class Triangles>

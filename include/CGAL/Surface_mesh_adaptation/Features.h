@@ -360,7 +360,7 @@ private:
     if (!c.closed && i + 1 == n) return -end_tangent(chord(c, n - 1, n - 2), chord(c, n - 2, n - 3));
     const Vector_3 dm = chord(c, i == 0 ? n - 2 : i - 1, i), dp = chord(c, i, i + 1 == n ? 1 : i + 1);
     const double lm = dm.norm(), lp = dp.norm();
-    return (lm * lp > 0 ? Vector_3(dp * (lm / lp) + dm * (lp / lm)) : Vector_3(dp + dm)).normalized();
+    return (lm * lp > 0 ? dp * (lm / lp) + dm * (lp / lm) : dp + dm).normalized();
   }
 
   /// The tangent at the start of two chords that follow each other; the first one if the parabola turns off by more
@@ -371,7 +371,7 @@ private:
     const double l1 = first.norm(), l2 = second.norm();
     if (!(l1 * l2 > 0)) return first.normalized();
     const Vector_3 t = (first / l1 + (first / l1 - second / l2) * (l1 / (l1 + l2))).normalized();
-    return t.dot(first) > least_cosine * l1 ? t : Vector_3(first / l1);
+    return t.dot(first) > least_cosine * l1 ? t : first / l1;
   }
 
   std::array<Vector_3, 2> ends(const Feature_curve& c, std::size_t i) const

@@ -5,6 +5,8 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_METRIC_TENSOR_3_H
 #define CGAL_SURFACE_MESH_ADAPTATION_METRIC_TENSOR_3_H
 
+#include <CGAL/Surface_mesh_adaptation/internal/small_matrices.h>
+
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

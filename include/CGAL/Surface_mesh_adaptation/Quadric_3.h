@@ -20,7 +20,7 @@ public:
   void add_plane(const Vector_3& p, const Vector_3& n, double weight)
   {
     const double height = n.dot(p);
-    matrix_ += weight * n * n.transpose();
+    matrix_ += internal::outer_product(weight * n, n);
     vector_ += weight * height * n;
     constant_ += weight * height * height;
   }
@@ -38,7 +38,7 @@ public:
 
   double operator()(const Vector_3& p) const
   {
-    return (std::max)(0.0, p.dot(matrix_ * p) - 2 * vector_.dot(p) + constant_);
+    return (std::max)(0.0, p.dot(Vector_3(matrix_ * p)) - 2 * vector_.dot(p) + constant_);
   }
 
   double area() const { return area_; }
@@ -48,9 +48,9 @@ public:
   {
     const double pull = attraction * matrix_.trace();
     if (!(pull > 0)) return guess;
-    const internal::Cholesky<3> factors(matrix_ + pull * Matrix_3::Identity());
-    const Vector_3 d = factors.solve(vector_ - matrix_ * guess);
-    return d.allFinite() ? Vector_3(guess + d) : guess;
+    const internal::Cholesky<3> factors(internal::shifted(matrix_, pull));
+    const Vector_3 d = factors.solve(vector_ - Vector_3(matrix_ * guess));
+    return d.allFinite() ? guess + d : guess;
   }
 
 private:

@@ -124,7 +124,7 @@ public:
     const Matrix_3 interpolated = mean.shape_operator.matrix(), of_patch = patch_shape_operator(l, mean.normal).matrix();
     constexpr double largest_change = 0.5;
     if ((of_patch - interpolated).norm() <= largest_change * interpolated.norm())
-      mean.shape_operator = Metric_tensor_3(Matrix_3((interpolated + of_patch) / 2));
+      mean.shape_operator = Metric_tensor_3((interpolated + of_patch) / 2);
     return mean;
   }
 

@@ -99,7 +99,7 @@ private:
   static Vector_3 place(const Triangle_points& p, std::size_t i)
   {
     const Vector_3 centroid = (p[0] + p[1] + p[2]) / 3;
-    return i < 3 ? Vector_3((p[i] + centroid) / 2) : centroid;
+    return i < 3 ? (p[i] + centroid) / 2 : centroid;
   }
 
   /// Where the first walk to `place` starts: at the next corner that is smooth.

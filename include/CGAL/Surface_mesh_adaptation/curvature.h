@@ -38,7 +38,7 @@ Metric_tensor_3 curvature_of_curve(const Reference& reference, Index v)
   const double turn = (b - a).norm(), rounding = fit_rounding * (1 + reference.points[v].norm() / length);
   if (!(turn > rounding)) return Metric_tensor_3(0, 0, 0, 0, 0, 0);
   const double curvature = 2 * turn / length;
-  return Metric_tensor_3(Matrix_3(curvature * c.tangents[i] * c.tangents[i].transpose()));
+  return Metric_tensor_3(outer_product(curvature * c.tangents[i], c.tangents[i]));
 }
 
 /// Curvature of the bend at the edge from `a` to `b` between its faces with the apices `c` and `d`, as a tensor across it:
@@ -58,7 +58,7 @@ inline Metric_tensor_3 curvature_of_bend(const Vector_3& a, const Vector_3& b, c
   const double mean_height = std::sqrt(height(l) * height(r)), rounding = fit_rounding * (1 + a.norm() / mean_height);
   if (!(half_turn > rounding) || !std::isfinite(half_turn)) return none;
   const Vector_3 across = edge.cross(m + n).normalized();
-  return Metric_tensor_3(Matrix_3(3 * half_turn / mean_height * across * across.transpose()));
+  return Metric_tensor_3(outer_product(3 * half_turn / mean_height * across, across));
 }
 
 /// Whether the faces of the input themselves are the surface.

@@ -37,7 +37,8 @@ double unexplained_share(const Samples_over_plane& samples, const Derivatives_2&
 {
   double all = 0, quadratic = 0;
   for (const Sample_over_plane& s : samples) {
-    const double v = value(s), q = s.x.dot(f.hessian * s.x) / 2;
+    const Eigen::Vector2d hx = f.hessian * s.x;
+    const double v = value(s), q = s.x.dot(hx) / 2;
     all += s.weight * v * v;
     quadratic += s.weight * q * q;
   }
@@ -65,9 +66,7 @@ inline Hessian_estimate hessian_of_sector(const Mesh_view& mesh, const std::vect
   const double rounding = fit_rounding * (std::abs(values[v]) + f.gradient.lpNorm<Eigen::Infinity>() *
                                                                   (1 + frame.origin.lpNorm<Eigen::Infinity>() / radius));
   if (!f.hessian.allFinite() || f.bend <= rounding) return {};
-  Eigen::Matrix<double, 3, 2> axes;
-  axes << frame.x, frame.y;
-  return {Metric_tensor_3(Matrix_3(axes * (f.hessian / (radius * radius)) * axes.transpose())),
+  return {Metric_tensor_3(in_space(f.hessian / (radius * radius), frame.x, frame.y)),
           unexplained_share(samples, f, value)};
 }
 

@@ -29,8 +29,9 @@ inline Matrix_3 minimal_rotation(const Vector_3& from, const Vector_3& to)
   const double c = from.dot(to);
   if (c < -1 + 1e-12) return Matrix_3::Identity();
   const Vector_3 x = from.cross(to);
-  Matrix_3 r = x * x.transpose() / (1 + c);
-  r.diagonal().array() += c;
+  Matrix_3 r = internal::outer_product(x, x);
+  r /= 1 + c;
+  for (int i = 0; i < 3; ++i) r(i, i) += c;
   r(0, 1) -= x[2]; r(1, 0) += x[2];
   r(0, 2) += x[1]; r(2, 0) -= x[1];
   r(1, 2) -= x[0]; r(2, 1) += x[0];

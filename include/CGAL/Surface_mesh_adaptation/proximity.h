@@ -81,7 +81,7 @@ Metric_tensor_3 tensor_across_strip(const Reference& reference, Index h, const V
   const Vector_3 tangent = reference.features.tangent(mesh.curve[h], v, w);
   const Vector_3 covector =
     height_of_equilateral_triangle / direction.dot(way) * (direction - direction.dot(tangent) * tangent);
-  return Metric_tensor_3(Matrix_3(covector * covector.transpose()));
+  return Metric_tensor_3(outer_product(covector, covector));
 }
 
 /// Calls `f(edge, way)` for the feature edges at `v` and the ways over the faces beside them across strips between

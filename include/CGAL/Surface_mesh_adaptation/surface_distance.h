@@ -53,7 +53,7 @@ public:
   }
 
   /// The unit normal; zero if the triangle is degenerate.
-  Vector_3 normal() const { return squared_area_ > 0 ? Vector_3(normal_ / std::sqrt(squared_area_)) : normal_; }
+  Vector_3 normal() const { return squared_area_ > 0 ? normal_ / std::sqrt(squared_area_) : normal_; }
 
   struct Distance
   {

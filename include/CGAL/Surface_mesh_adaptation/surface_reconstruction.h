@@ -51,7 +51,7 @@ struct PN_triangle_reconstruction
 
     // de Casteljau: three linear interpolations, of which the last but one spans the tangent plane
     const double w = 1 - u - v;
-    const auto blend = [=](const Vector_3& x, const Vector_3& y, const Vector_3& z) -> Vector_3 {
+    const auto blend = [=](const Vector_3& x, const Vector_3& y, const Vector_3& z) {
       return w * x + u * y + v * z;
     };
     const Vector_3 q00 = blend(p0, b01, b02), q11 = blend(b10, p1, b12), q22 = blend(b20, b21, p2);

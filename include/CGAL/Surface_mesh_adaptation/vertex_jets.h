@@ -120,7 +120,7 @@ inline Samples_over_plane samples_over_plane(const Sector_neighborhood& neighbor
 inline Eigen::Matrix2d map_to_disc(const Samples_over_plane& samples)
 {
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
-  for (const Sample_over_plane& s : samples) moments += s.x * s.x.transpose();
+  for (const Sample_over_plane& s : samples) moments += outer_product(s.x, s.x);
   const Cholesky<2> factors(moments);
   if (!factors.is_positive_definite()) return Eigen::Matrix2d::Identity();
   return std::sqrt(0.5 * double(samples.size())) * factors.solve_lower<2>(Eigen::Matrix2d::Identity());
@@ -150,14 +150,14 @@ struct Jet_of_sector
 /// `S = -J G^-1 H G^-1 J^T / sqrt(1 + |grad|^2)`.
 inline Jet_of_sector jet_of_graph(const Tangent_frame& frame, const Derivatives_2& f, double radius)
 {
-  const double slope2 = f.gradient.squaredNorm(), w = std::sqrt(1 + slope2);
-  Eigen::Matrix<double, 3, 2> tangents;
-  tangents << frame.x + f.gradient[0] * frame.n, frame.y + f.gradient[1] * frame.n;
+  const Eigen::Vector2d& g = f.gradient;
+  const double slope2 = g.squaredNorm(), w = std::sqrt(1 + slope2);
+  const Vector_3 x = frame.x + g[0] * frame.n, y = frame.y + g[1] * frame.n;
   // G = I + g g^T, hence G^-1 = I - g g^T / (1 + g^2)
-  const Eigen::Matrix2d inverse = Eigen::Matrix2d::Identity() - f.gradient * f.gradient.transpose() / (1 + slope2);
-  const Eigen::Matrix<double, 3, 2> dual = tangents * inverse;
-  return {(frame.n - f.gradient[0] * frame.x - f.gradient[1] * frame.y) / w,
-          Metric_tensor_3(Matrix_3(dual * f.hessian * dual.transpose() * (-1 / (w * radius))))};
+  const Eigen::Matrix2d inverse = shifted(-outer_product(g, g) / (1 + slope2), 1);
+  const Vector_3 dual_x = inverse(0, 0) * x + inverse(1, 0) * y, dual_y = inverse(0, 1) * x + inverse(1, 1) * y;
+  return {(frame.n - g[0] * frame.x - g[1] * frame.y) / w,
+          Metric_tensor_3(in_space(f.hessian, dual_x, dual_y) * (-1 / (w * radius)))};
 }
 
 /// Largest second derivative, over the mean distance of the samples, with which they say something about the fourth.
@@ -231,17 +231,16 @@ inline Metric_tensor_3 shape_operator_of_face(const std::array<Vector_3, 3>& p, 
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector_3 e = p[(i + 1) % 3] - p[i], dn = n[(i + 1) % 3] - n[i];
     const double x = e.dot(u), y = e.dot(v);
-    Eigen::Matrix<double, 2, 3> rows;
-    rows << x, y, 0, 0, x, y;
-    a += rows.transpose() * rows;
-    b += rows.transpose() * Eigen::Vector2d(dn.dot(u), dn.dot(v));
+    const Vector_3 row_u(x, y, 0), row_v(0, x, y);
+    a += outer_product(row_u, row_u) + outer_product(row_v, row_v);
+    b += dn.dot(u) * row_u + dn.dot(v) * row_v;
   }
   const Cholesky<3> factors(a);
   if (!factors.is_positive_definite()) return zero;
   const Vector_3 s = factors.solve(b);
   if (!s.allFinite()) return zero;
-  return Metric_tensor_3(Matrix_3(s[0] * u * u.transpose() + s[1] * (u * v.transpose() + v * u.transpose()) +
-                                  s[2] * v * v.transpose()));
+  return Metric_tensor_3(outer_product(s[0] * u, u) + s[1] * (outer_product(u, v) + outer_product(v, u)) +
+                         outer_product(s[2] * v, v));
 }
 
 /// The mean of the shape operators of the faces of a sector, weighted by area, each carried to the tangent plane; zero

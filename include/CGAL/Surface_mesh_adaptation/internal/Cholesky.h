@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 
 namespace CGAL {
@@ -22,8 +23,10 @@ public:
   using Matrix = Eigen::Matrix<double, n, n>;
   using Vector = Eigen::Matrix<double, n, 1>;
 
-  explicit Cholesky(const Matrix& a) : lower_(a.template triangularView<Eigen::Lower>())
+  explicit Cholesky(const Matrix& a) : lower_(Matrix::Zero())
   {
+    for (int j = 0; j < n; ++j)
+      for (int i = j; i < n; ++i) lower_(i, j) = a(i, j);
     for (int k = 0; k < n && is_positive_definite_; ++k) {
       is_positive_definite_ = lower_(k, k) > 0;
       const double pivot = std::sqrt(lower_(k, k));
@@ -38,7 +41,12 @@ public:
   bool is_positive_definite() const { return is_positive_definite_; }
 
   /// The least diagonal element of `L`. \pre positive definite
-  double least_pivot() const { return lower_.diagonal().minCoeff(); }
+  double least_pivot() const
+  {
+    double least = lower_(0, 0);
+    for (int i = 1; i < n; ++i) least = (std::min)(least, lower_(i, i));
+    return least;
+  }
 
   /// `L` \pre positive definite
   const Matrix& lower() const { return lower_; }
@@ -47,10 +55,11 @@ public:
   template <int m>
   Eigen::Matrix<double, n, m> solve_lower(Eigen::Matrix<double, n, m> b) const
   {
-    for (int j = 0; j < n; ++j) {
-      b.row(j) *= inverse_pivots_[j];
-      for (int i = j + 1; i < n; ++i) b.row(i) -= lower_(i, j) * b.row(j);
-    }
+    for (int k = 0; k < m; ++k)
+      for (int j = 0; j < n; ++j) {
+        b(j, k) *= inverse_pivots_[j];
+        for (int i = j + 1; i < n; ++i) b(i, k) -= lower_(i, j) * b(j, k);
+      }
     return b;
   }
 

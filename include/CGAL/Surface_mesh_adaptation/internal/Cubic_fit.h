@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace CGAL {
@@ -49,7 +51,8 @@ public:
   /// Takes `value` from a sample that was added with the same weight.
   void subtract(const Eigen::Vector2d& x, double value, double weight)
   {
-    right_hand_side_ -= weight * value * monomials(to_unit_ * x);
+    const Row row = monomials(to_unit_ * x);
+    for (int j = 0; j < size; ++j) right_hand_side_[j] -= weight * value * row[j];
   }
 
   std::size_t number_of_samples() const { return samples_; }
@@ -60,32 +63,52 @@ public:
   class Solver
   {
   public:
-    explicit Solver(const Cubic_fit& fit)
-      : fit_(fit), scale_(fit.matrix_.template topLeftCorner<n, n>().diagonal().cwiseSqrt())
-      , inverse_(scale_.cwiseInverse())
-      , factors_(inverse_.asDiagonal() * fit.matrix_.template topLeftCorner<n, n>() * inverse_.asDiagonal())
-    {}
+    explicit Solver(const Cubic_fit& fit) : fit_(fit), factors_(scaled_matrix()) {}
 
     /// Whether there are samples enough, and well enough spread; if so, sets `result`.
     bool solve(Derivatives_2& result) const
     {
-      if (fit_.samples_ < least_samples || !(scale_.minCoeff() > least_column * scale_.maxCoeff()) ||
-          !factors_.is_positive_definite() || !(factors_.least_pivot() > least_sine))
+      if (fit_.samples_ < least_samples || !is_well_scaled() || !factors_.is_positive_definite() ||
+          !(factors_.least_pivot() > least_sine))
         return false;
-      const Vector c = inverse_.cwiseProduct(
-        factors_.solve(inverse_.cwiseProduct(fit_.right_hand_side_.template head<n>())));
+      Vector right_side, scaled;
+      for (int i = 0; i < n; ++i) {
+        right_side[i] = fit_.right_hand_side_[i];
+        scaled[i] = inverse_[i] * right_side[i];
+      }
+      Vector c = factors_.solve(scaled);
+      for (int i = 0; i < n; ++i) c[i] *= inverse_[i];
       Eigen::Matrix2d hessian;
       hessian << c[2], c[3], c[3], c[4];
-      result.gradient = fit_.to_unit_.transpose() * c.template head<2>();
-      result.hessian = fit_.to_unit_.transpose() * hessian * fit_.to_unit_;
+      const Eigen::Matrix2d back = fit_.to_unit_.transpose();
+      result.gradient = back * Eigen::Vector2d(c[0], c[1]);
+      result.hessian = back * hessian * fit_.to_unit_;
       result.bend = hessian.template lpNorm<Eigen::Infinity>();
-      result.explained = c.dot(fit_.right_hand_side_.template head<n>());
+      result.explained = c.dot(right_side);
       return true;
     }
 
   private:
     using Vector = Eigen::Matrix<double, n, 1>;
     static constexpr std::size_t least_samples = n == 9 ? 14 : 6;
+
+    /// The normal equations for columns of length 1, with the lengths that they have.
+    Eigen::Matrix<double, n, n> scaled_matrix()
+    {
+      Eigen::Matrix<double, n, n> a = Eigen::Matrix<double, n, n>::Zero();
+      for (int i = 0; i < n; ++i) {
+        scale_[i] = std::sqrt(fit_.matrix_(i, i));
+        inverse_[i] = 1 / scale_[i];
+        for (int j = 0; j <= i; ++j) a(i, j) = inverse_[i] * fit_.matrix_(i, j) * inverse_[j];
+      }
+      return a;
+    }
+
+    bool is_well_scaled() const
+    {
+      const auto [least, largest] = std::minmax_element(scale_.data(), scale_.data() + n);
+      return *least > least_column * *largest;
+    }
 
     const Cubic_fit& fit_;
     Vector scale_, inverse_;

@@ -21,7 +21,7 @@ public:
     const double area = n.norm();
     if (!(area > 0)) return;
     sum_ += n;
-    squares_ += n * (n / area).transpose();
+    squares_ += outer_product(n, n / area);
     area_ += area;
   }
 
@@ -36,7 +36,7 @@ public:
   double variance(const Vector_3& d) const
   {
     const double mean = sum_.dot(d) / area_;
-    return d.dot(squares_ * d) / area_ - mean * mean;
+    return d.dot(Vector_3(squares_ * d)) / area_ - mean * mean;
   }
 
 private:

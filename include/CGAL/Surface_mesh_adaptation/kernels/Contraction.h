@@ -195,9 +195,9 @@ private:
     q += quadrics_[d];
     const bool is_fixed = surface_.vertex_class(d) == Vertex_class::corner;
     const bool are_alike = surface_.vertex_class(s) == surface_.vertex_class(d);
-    const Vector_3 guess = are_alike ? Vector_3((local(s) + local(d)) / 2) : local(d);
+    const Vector_3 guess = are_alike ? (local(s) + local(d)) / 2 : local(d);
     const Vector_3 point = is_fixed ? local(d) : q.minimum(guess, attraction);
-    return {e, is_fixed ? surface_.points[d] : Vector_3(point + origin_), cost(q(point), q.area()), {}};
+    return {e, is_fixed ? surface_.points[d] : point + origin_, cost(q(point), q.area()), {}};
   }
 
   /// Between the mean distance from the planes, by which the largest one is small, and the sum over the area, by which

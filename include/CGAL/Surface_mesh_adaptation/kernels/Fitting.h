@@ -95,11 +95,11 @@ private:
     target_.for_each_point(f, [&](const internal::Closest_point& closest, double weight) {
       const double distance = closest.offset.norm();
       const bool is_inside = *std::min_element(closest.weights.begin(), closest.weights.end()) > 0;
-      const Vector_3 direction = is_inside || !(distance > 0) ? normal : Vector_3(closest.offset / distance);
+      const Vector_3 direction = is_inside || !(distance > 0) ? normal : closest.offset / distance;
       const double residual = direction.dot(closest.offset);
       for (std::size_t i = 0; i < 3; ++i) {
         const double w = weight * closest.weights[i];
-        of_corner[i].matrix += w * closest.weights[i] * direction * direction.transpose();
+        of_corner[i].matrix += internal::outer_product(w * closest.weights[i] * direction, direction);
         of_corner[i].right_side += w * residual * direction;
       }
     });
@@ -115,14 +115,13 @@ private:
     });
     const double pull = thresholds_.attraction * e.matrix.trace();
     if (!(pull > 0)) return;
-    e.matrix += pull * Matrix_3::Identity();
     if (thresholds_.is_centering && surface_.vertex_class(v) == Vertex_class::smooth)
       e.right_side += pull * to_center(v);
-    const Vector_3 d =
-      damping * internal::Cholesky<3>(e.matrix).solve(e.right_side) + momentum * (before_[v] - last_[v]);
+    const internal::Cholesky<3> factors(internal::shifted(e.matrix, pull));
+    const Vector_3 d = damping * factors.solve(e.right_side) + momentum * (before_[v] - last_[v]);
     if (!d.allFinite()) return;
     const double length = d.norm(), longest = max_move * max_distance_;
-    surface_.points[v] += length > longest ? Vector_3(longest / length * d) : d;
+    surface_.points[v] += length > longest ? longest / length * d : d;
   }
 
   /// From where the smooth vertex `v` was before the step.
@@ -154,7 +153,7 @@ private:
       for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
         is_changed_[v] = has_bad_face(Index(v));
         if (is_changed_[v])
-          surface_.points[v] = i < max_halvings ? Vector_3((surface_.points[v] + before[v]) / 2) : before[v];
+          surface_.points[v] = i < max_halvings ? (surface_.points[v] + before[v]) / 2 : before[v];
       });
   }
 
