@@ -2,23 +2,24 @@
 //
 // Adapts a surface mesh to a metric: `adapt_mesh INPUT OUTPUT --size H` and the like, see `adapt_mesh --help`.
 
+#include "adapt_mesh/Bad_input.h"
 #include "adapt_mesh/Output_file.h"
 #include "adapt_mesh/Progress.h"
+#include "adapt_mesh/adapt.h"
 #include "adapt_mesh/execution.h"
 #include "adapt_mesh/mesh_files.h"
 #include "adapt_mesh/metric_files.h"
 #include "adapt_mesh/options.h"
 #include "adapt_mesh/summary.h"
 
+#include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
+#include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/keep_freed_memory.h>
-#include <CGAL/surface_mesh_adaptation.h>
 
 #include <csignal>
 #include <exception>
 #include <fstream>
-#include <functional>
 #include <iostream>
-#include <limits>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -27,36 +28,6 @@
 namespace adapt_mesh {
 
 enum Exit_status { done = 0, failed = 1, bad_usage = 2, bad_input = 3 };
-
-/// A file that was given cannot be used.
-struct Bad_input : std::runtime_error
-{
-  using std::runtime_error::runtime_error;
-};
-
-/// Calls `use()`; if it rejects what the file `file` holds, says so and names the file.
-template <class Use>
-auto blaming(const std::string& file, const Use& use)
-{
-  try {
-    return use();
-  } catch (const SMA::Invalid_input_error& e) {
-    throw Bad_input(file + ": " + e.what());
-  } catch (const SMA::Empty_mesh_error& e) {
-    throw Bad_input(file + ": " + e.what());
-  }
-}
-
-/// As above, where nothing is written: an error of a file is then about the input.
-template <class Read>
-auto reading(const std::string& file, const Read& read)
-{
-  try {
-    return blaming(file, read);
-  } catch (const SMA::Io_error& e) {
-    throw Bad_input(e.what());
-  }
-}
 
 /// The files that a run writes: all of them, or none.
 class Outputs
@@ -107,100 +78,10 @@ void check_files(const Options& options)
     throw Usage_error("--metric and --field need vertices that are numbered, and those of an stl file are not");
 }
 
-/// Sets what the options say of any metric that is made from data.
-template <class Field>
-Field configured(const Options& options, Field field)
-{
-  field.hmin = options.hmin;
-  field.hmax = options.hmax;
-  if (options.gradation) field.gradation = *options.gradation;
-  return field;
-}
-
-SMA::Curvature_metric_field curvature_field(const Options& options)
-{
-  constexpr double any_tolerance = 0.001;  // with a number of vertices the tolerance follows from it
-  constexpr double largest_gap = 2.5;      // of meshes with the sizes for a tolerance, in units of that
-  const double tolerance = options.curvature > 0   ? options.curvature
-                           : options.vertices > 0  ? any_tolerance
-                                                   : options.tolerance / largest_gap;
-  auto field = configured(options, SMA::Curvature_metric_field(tolerance));
-  field.anisotropic = options.anisotropic;
-  if (options.curvature == 0) field.vertices = std::size_t(options.vertices);
-  return field;
-}
-
-auto solution_field(const Options& options, Constrained_mesh& mesh)
-{
-  const SMA::Medit_solution values = reading(options.field, [&] { return read_scalars(options.field, mesh); });
-  auto field = configured(options, SMA::Solution_metric_field(scalar_map(values, mesh), std::size_t(options.vertices)));
-  field.norm = options.norm.value_or(field.norm);
-  field.anisotropic = options.anisotropic;
-  return field;
-}
-
-/// What several fields ask for, or one that is to be scaled or graded.
-template <class... Fields>
-auto intersection(const Options& options, const Fields&... fields)
-{
-  auto field = configured(options, SMA::Intersection_metric_field(fields...));
-  if (!options.gradation && !options.metric.empty()) field.gradation = 1;
-  field.vertices = std::size_t(options.vertices);
-  return field;
-}
-
-/// Calls `adapt(field)` with the metric of a file.
-template <class Adapt>
-SMA::Adaptation_report with_metric_of_file(const Options& options, Constrained_mesh& mesh, const Adapt& adapt)
-{
-  const SMA::Medit_solution metric = reading(options.metric, [&] { return read_metric(options.metric, mesh); });
-  const Size_bounds bounds(options.hmin, options.hmax);
-  const auto adapt_to = [&](const auto& map) {
-    return options.vertices > 0 || options.gradation ? adapt(intersection(options, map)) : adapt(map);
-  };
-  return metric.components == 1 ? adapt_to(reading(options.metric, [&] { return size_map(metric, mesh, bounds); }))
-                                : adapt_to(reading(options.metric, [&] { return tensor_map(metric, mesh, bounds); }));
-}
-
-/// Calls `adapt(field)` with the metric field that the options ask for.
-template <class Adapt>
-SMA::Adaptation_report with_metric_field(const Options& options, Constrained_mesh& mesh, const Adapt& adapt)
-{
-  if (options.size > 0) return adapt(SMA::Uniform_metric_field(options.size));
-  if (!options.metric.empty()) return with_metric_of_file(options, mesh, adapt);
-  if (options.field.empty()) return adapt(curvature_field(options));
-  const auto solution = solution_field(options, mesh);
-  return options.curvature > 0 ? adapt(intersection(options, solution, curvature_field(options))) : adapt(solution);
-}
-
-template <class Execution>
-SMA::Adaptation_report adapt(const Options& options, const Execution& execution, Constrained_mesh& mesh,
-                             const Output_metric& output_metric, Progress& progress)
-{
-  constexpr double none = std::numeric_limits<double>::infinity();
-  const double tolerance = options.tolerance > 0 ? options.tolerance * diagonal(mesh.mesh) : none;
-  const auto parameters =
-    SMA::parameters::detect_features(!options.no_features)
-      .feature_angle(options.feature_angle.value_or(45))
-      .edge_is_constrained_map(mesh.edge_is_constrained)
-      .vertex_is_constrained_map(mesh.vertex_is_constrained)
-      .number_of_iterations(options.rounds > 0 ? unsigned(options.rounds) : SMA::default_number_of_rounds)
-      .output_metric_map(output_metric)
-      .tolerance(tolerance)
-      .fit_to_surface(options.fit)
-      .shape_weight_of_fit(options.shape_weight.value_or(SMA::default_shape_weight))
-      .visitor(std::ref(progress));
-  SMA::Adaptation_report report = with_metric_field(options, mesh, [&](const auto& field) {
-    return blaming(options.input, [&] { return SMA::adapt_surface_mesh(execution, mesh.mesh, field, parameters); });
-  });
-  progress.finish();
-  return report;
-}
-
-template <class Execution>
-void run(const Options& options, const Execution& execution)
+void run(const Options& options)
 {
   check_files(options);
+  check_execution(options);
   Outputs outputs(options);
   Progress progress(options.quiet, options.verbose);
 
@@ -214,7 +95,8 @@ void run(const Options& options, const Execution& execution)
   if (output_metric.wanted)
     output_metric.map = mesh.mesh.add_property_map<Vertex, SMA::Metric_tensor_3>("v:metric").first;
 
-  const SMA::Adaptation_report report = adapt(options, execution, mesh, output_metric, progress);
+  const auto adapt = options.flat ? adapt_on_triangles : adapt_on_patches;
+  const SMA::Adaptation_report report = adapt(options, mesh, output_metric, progress);
   outputs.write(mesh, output_metric, report);
   if (!progress.go_on()) throw std::runtime_error("interrupted, nothing was written");
   outputs.commit();
@@ -231,7 +113,7 @@ Exit_status guarded_main(int argc, char* argv[])
     const Options options = parse_options(argc, argv);
     if (options.help) print_help(std::cout);
     else if (options.version) std::cout << "adapt_mesh " SMA_VERSION "\n";
-    else with_execution(options, [&](const auto& execution) { run(options, execution); });
+    else run(options);
     return done;
   } catch (const Usage_error& e) {
     return complain(std::string(e.what()) + " (see adapt_mesh --help)", bad_usage);

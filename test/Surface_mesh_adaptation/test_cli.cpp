@@ -315,6 +315,29 @@ TEST_F(Adapt_mesh, lets_faces_run_through_the_surface)
   EXPECT_NE(fitted, in_better_shape);
 }
 
+TEST_F(Adapt_mesh, keeps_to_the_triangles_or_bulges)
+{
+  double depth_of_faces = 0; // of their planes below the sphere on which their corners are
+  for (const auto& t : sphere_.triangles) {
+    const Vector_3& p = sphere_.points[t[0]];
+    const Vector_3 n = (sphere_.points[t[1]] - p).cross(sphere_.points[t[2]] - p).normalized();
+    depth_of_faces = (std::max)(depth_of_faces, 1 - n.dot(p));
+  }
+  const auto depth_of_vertices = [&](const std::string& options) {
+    expect_success("in.off out.off --size 0.05 " + options);
+    double depth = 0;
+    for (const Vector_3& p : read(path("out.off")).points) {
+      EXPECT_LT(p.norm(), 1.001);
+      depth = (std::max)(depth, 1 - p.norm());
+    }
+    return depth;
+  };
+  EXPECT_LT(depth_of_vertices(""), 0.1 * depth_of_faces);
+  const double flat = depth_of_vertices("--flat");
+  EXPECT_GT(flat, 0.8 * depth_of_faces);
+  EXPECT_LT(flat, 1.001 * depth_of_faces);
+}
+
 TEST_F(Adapt_mesh, keeps_a_tolerance_and_says_so)
 {
   for (const std::string options : {"--tolerance 0.002", "--tolerance 0.002 --size 0.5", "--tolerance 0.01 --anisotropic"}) {

@@ -11,9 +11,9 @@
 
 namespace adapt_mesh {
 
-/// Calls `use()` with the execution policy that the options ask for. \throws Usage_error if it was not built in
+/// Returns `use(execution)` for the policy that the options ask for. \throws Usage_error if it was not built in
 template <class Use>
-void with_execution(const Options& options, const Use& use)
+auto with_execution(const Options& options, const Use& use)
 {
   namespace SMA = CGAL::Surface_mesh_adaptation;
   const std::string& which = options.execution;
@@ -29,6 +29,12 @@ void with_execution(const Options& options, const Use& use)
   if (which.empty()) throw Usage_error("--threads needs a parallel execution, and none was built in");
   if (which == "tbb" || which == "openmp") throw Usage_error("--execution " + which + " was not built in");
   throw Usage_error("--execution must be sequential, tbb or openmp");
+}
+
+/// \throws Usage_error if the policy that the options ask for was not built in
+inline void check_execution(const Options& options)
+{
+  with_execution(options, [](const auto&) {});
 }
 
 } // namespace adapt_mesh

@@ -11,12 +11,15 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/polygon_soup_io.h>
+#include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+#include <CGAL/number_utils.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -53,6 +56,13 @@ struct Constrained_mesh
   Constrained_mesh(const Constrained_mesh&) = delete; // the maps belong to the mesh
   Constrained_mesh& operator=(const Constrained_mesh&) = delete;
 };
+
+/// Of the bounding box.
+inline double diagonal(const Mesh& mesh)
+{
+  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);
+  return std::sqrt(CGAL::square(box.x_span()) + CGAL::square(box.y_span()) + CGAL::square(box.z_span()));
+}
 
 /// The extension of a file name in lower case, without its dot.
 inline std::string extension(const std::string& file)

@@ -35,6 +35,7 @@ struct Options
   int vertices = 0;
   std::optional<double> gradation;
   double tolerance = 0;
+  bool flat = false;
   bool fit = false;
   std::optional<double> shape_weight;
   double hmin = 0;
@@ -87,6 +88,8 @@ inline po::options_description described_options(Options& o)
     ("tolerance", po::value(&o.tolerance)->value_name("EPS"),
      "keep the Hausdorff distance between input and output below EPS times the diagonal of the bounding box, and certify "
      "it; if nothing else says how fine the mesh is to be, the curvature does such that this is likely")
+    ("flat", po::bool_switch(&o.flat),
+     "the triangles of the input are the surface, instead of smooth patches through their vertices")
     ("fit", po::bool_switch(&o.fit),
      "let the faces run through the surface instead of touching it with their vertices, and so nearer to it")
     ("shape-weight", po::value<double>()->value_name("W")->notifier([&](double w) { o.shape_weight = w; }),

@@ -7,12 +7,9 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
 
-#include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/distance.h>
-#include <CGAL/number_utils.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace adapt_mesh {
@@ -27,12 +24,6 @@ inline double sampled_distance(const Mesh& a, const Mesh& b)
                             .random_seed(0);
   return CGAL::Polygon_mesh_processing::approximate_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(a, b, parameters,
                                                                                                        parameters);
-}
-
-inline double diagonal(const Mesh& mesh)
-{
-  const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);
-  return std::sqrt(CGAL::square(box.x_span()) + CGAL::square(box.y_span()) + CGAL::square(box.z_span()));
 }
 
 /// Prints what was reached, on stdout.

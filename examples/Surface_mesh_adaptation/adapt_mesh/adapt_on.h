@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#ifndef ADAPT_MESH_ADAPT_ON_H
+#define ADAPT_MESH_ADAPT_ON_H
+
+#include "Bad_input.h"
+#include "adapt.h"
+#include "execution.h"
+#include "mesh_files.h"
+#include "metric_fields.h"
+
+#include <CGAL/surface_mesh_adaptation.h>
+
+#include <functional>
+#include <limits>
+
+namespace adapt_mesh {
+
+/// As `adapt.h` says, with a `Reconstruction` between the vertices of the input.
+template <class Reconstruction>
+SMA::Adaptation_report adapt_on(const Options& options, Constrained_mesh& mesh, const Output_metric& output_metric,
+                                Progress& progress)
+{
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const double tolerance = options.tolerance > 0 ? options.tolerance * diagonal(mesh.mesh) : none;
+  const auto parameters =
+    SMA::parameters::detect_features(!options.no_features)
+      .feature_angle(options.feature_angle.value_or(SMA::Feature_parameters().ridge_angle))
+      .edge_is_constrained_map(mesh.edge_is_constrained)
+      .vertex_is_constrained_map(mesh.vertex_is_constrained)
+      .number_of_iterations(options.rounds > 0 ? unsigned(options.rounds) : SMA::default_number_of_rounds)
+      .output_metric_map(output_metric)
+      .tolerance(tolerance)
+      .surface_reconstruction(Reconstruction())
+      .fit_to_surface(options.fit)
+      .shape_weight_of_fit(options.shape_weight.value_or(SMA::default_shape_weight))
+      .visitor(std::ref(progress));
+  SMA::Adaptation_report report = with_metric_field(options, mesh, [&](const auto& field) {
+    return blaming(options.input, [&] {
+      return with_execution(options, [&](const auto& execution) {
+        return SMA::adapt_surface_mesh(execution, mesh.mesh, field, parameters);
+      });
+    });
+  });
+  progress.finish();
+  return report;
+}
+
+} // namespace adapt_mesh
+
+#endif // ADAPT_MESH_ADAPT_ON_H

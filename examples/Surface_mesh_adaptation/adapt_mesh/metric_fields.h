@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The metric field that the options ask for.
+
+#ifndef ADAPT_MESH_METRIC_FIELDS_H
+#define ADAPT_MESH_METRIC_FIELDS_H
+
+#include "Bad_input.h"
+#include "metric_files.h"
+#include "options.h"
+
+#include <CGAL/Surface_mesh_adaptation/metric_fields.h>
+
+#include <cstddef>
+
+namespace adapt_mesh {
+
+/// Sets what the options say of any metric that is made from data.
+template <class Field>
+Field configured(const Options& options, Field field)
+{
+  field.hmin = options.hmin;
+  field.hmax = options.hmax;
+  if (options.gradation) field.gradation = *options.gradation;
+  return field;
+}
+
+inline SMA::Curvature_metric_field curvature_field(const Options& options)
+{
+  constexpr double any_tolerance = 0.001;  // with a number of vertices the tolerance follows from it
+  constexpr double largest_gap = 2.5;      // of meshes with the sizes for a tolerance, in units of that
+  const double tolerance = options.curvature > 0   ? options.curvature
+                           : options.vertices > 0  ? any_tolerance
+                                                   : options.tolerance / largest_gap;
+  auto field = configured(options, SMA::Curvature_metric_field(tolerance));
+  field.anisotropic = options.anisotropic;
+  if (options.curvature == 0) field.vertices = std::size_t(options.vertices);
+  return field;
+}
+
+inline auto solution_field(const Options& options, Constrained_mesh& mesh)
+{
+  const SMA::Medit_solution values = reading(options.field, [&] { return read_scalars(options.field, mesh); });
+  auto field = configured(options, SMA::Solution_metric_field(scalar_map(values, mesh), std::size_t(options.vertices)));
+  field.norm = options.norm.value_or(field.norm);
+  field.anisotropic = options.anisotropic;
+  return field;
+}
+
+/// What several fields ask for, or one that is to be scaled or graded.
+template <class... Fields>
+auto intersection(const Options& options, const Fields&... fields)
+{
+  auto field = configured(options, SMA::Intersection_metric_field(fields...));
+  if (!options.gradation && !options.metric.empty()) field.gradation = 1;
+  field.vertices = std::size_t(options.vertices);
+  return field;
+}
+
+/// Calls `adapt(field)` with the metric of a file.
+template <class Adapt>
+SMA::Adaptation_report with_metric_of_file(const Options& options, Constrained_mesh& mesh, const Adapt& adapt)
+{
+  const SMA::Medit_solution metric = reading(options.metric, [&] { return read_metric(options.metric, mesh); });
+  const Size_bounds bounds(options.hmin, options.hmax);
+  const auto adapt_to = [&](const auto& map) {
+    return options.vertices > 0 || options.gradation ? adapt(intersection(options, map)) : adapt(map);
+  };
+  return metric.components == 1 ? adapt_to(reading(options.metric, [&] { return size_map(metric, mesh, bounds); }))
+                                : adapt_to(reading(options.metric, [&] { return tensor_map(metric, mesh, bounds); }));
+}
+
+/// Calls `adapt(field)` with the metric field that the options ask for.
+template <class Adapt>
+SMA::Adaptation_report with_metric_field(const Options& options, Constrained_mesh& mesh, const Adapt& adapt)
+{
+  if (options.size > 0) return adapt(SMA::Uniform_metric_field(options.size));
+  if (!options.metric.empty()) return with_metric_of_file(options, mesh, adapt);
+  if (options.field.empty()) return adapt(curvature_field(options));
+  const auto solution = solution_field(options, mesh);
+  return options.curvature > 0 ? adapt(intersection(options, solution, curvature_field(options))) : adapt(solution);
+}
+
+} // namespace adapt_mesh
+
+#endif // ADAPT_MESH_METRIC_FIELDS_H
