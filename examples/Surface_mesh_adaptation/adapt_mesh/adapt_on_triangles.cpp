@@ -5,7 +5,7 @@
 namespace adapt_mesh {
 
 SMA::Adaptation_report adapt_on_triangles(const Options& options, Constrained_mesh& mesh, const Output_metric& metric,
-                                      Progress& progress)
+                                          Progress& progress)
 {
   return adapt_on<SMA::Flat_reconstruction>(options, mesh, metric, progress);
 }
