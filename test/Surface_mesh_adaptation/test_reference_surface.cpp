@@ -214,25 +214,27 @@ TEST(Features, that_branch_off_others_and_end_at_once_are_noise)
   EXPECT_EQ(number_of_curves(5, false), boundary + 1);
 }
 
-/// Puts a vertex into face `f` that lies just beyond the edge from its corner `i` on: the face over that edge is folded
-/// over. Returns the new vertex.
-Index fold(Soup& s, std::size_t f, std::size_t i)
+/// Puts a vertex into face `f` that lies beyond the edge from its corner `i` on, by a part of the height of the face: the
+/// face over that edge is folded over. Returns the new vertex.
+Index fold(Soup& s, std::size_t f, std::size_t i, double part = 0.02)
 {
   const shapes::Triangle t = s.triangles[f];
   const Index a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3], x = Index(s.points.size());
   const Vector_3 middle = 0.5 * (s.points[a] + s.points[b]);
-  s.points.push_back(middle + 0.02 * (middle - s.points[c]));
+  s.points.push_back(middle + part * (middle - s.points[c]));
   s.triangles[f] = {a, b, x};
   s.triangles.push_back({b, c, x});
   s.triangles.push_back({c, a, x});
   return x;
 }
 
-TEST(Features, of_folded_slivers_are_those_of_the_faces_around)
+TEST(Features, of_folds_are_those_of_the_faces_around)
 {
-  Soup sphere = shapes::sphere(3);
-  for (const std::size_t f : {0u, 500u, 900u}) fold(sphere, f, f % 3);
-  EXPECT_TRUE(reference(sphere).features.curves.empty());
+  for (const double part : {0.02, 0.3}) {
+    Soup sphere = shapes::sphere(3);
+    for (const std::size_t f : {0u, 500u, 900u}) fold(sphere, f, f % 3, part);
+    EXPECT_TRUE(reference(sphere).features.curves.empty()) << part;
+  }
 
   // on a ridge: it takes the way around the sliver, through the new vertex
   Soup cube = shapes::cube(5);
@@ -251,6 +253,44 @@ TEST(Features, of_folded_slivers_are_those_of_the_faces_around)
   EXPECT_EQ(count(features, Vertex_class::corner), 8u);
   EXPECT_EQ(count(features, Vertex_class::curve), 12u * 4u + 1u);
   EXPECT_EQ(features.vertex_class[x], Vertex_class::curve);
+}
+
+/// Two plates of width `width` that meet at a right angle in a row of edges of length 1. The `flipped` edge of these is
+/// replaced by the other diagonal of its two faces, which leaves a dent.
+Soup plates(Index edges, double width, Index flipped)
+{
+  Soup s;
+  for (Index i = 0; i <= edges; ++i) s.points.push_back({double(i), 0, 0});
+  for (Index i = 0; i < edges; ++i) s.points.push_back({i + 0.5, width, 0});
+  for (Index i = 0; i < edges; ++i) s.points.push_back({i + 0.5, 0, -width});
+  const Index first = edges + 1;
+  for (Index i = 0; i < edges; ++i) {
+    const Index above = first + i, below = first + edges + i;
+    if (i == flipped) {
+      s.triangles.push_back({i, below, above});
+      s.triangles.push_back({i + 1, above, below});
+    } else {
+      s.triangles.push_back({i, i + 1, above});
+      s.triangles.push_back({i + 1, i, below});
+    }
+    if (i + 1 == edges) break;
+    s.triangles.push_back({i + 1, above + 1, above});
+    s.triangles.push_back({i + 1, below, below + 1});
+  }
+  return s;
+}
+
+TEST(Features, are_on_no_wrong_diagonals)
+{
+  const Index edges = 10, flipped = 4;
+  for (const double width : {0.5, 2.0}) {
+    const Surface straight = reference(plates(edges, width, edges));
+    for (Index i = 0; i < edges; ++i) EXPECT_TRUE(straight.mesh.is_feature(straight.mesh.halfedge(i, i + 1)));
+    const Surface dented = reference(plates(edges, width, flipped));
+    const Index above = edges + 1 + flipped, below = above + edges;
+    // the ridge turns by 90 degrees; the other diagonal by 71 where the faces are wide along it, by 141 where they are long
+    EXPECT_EQ(dented.mesh.is_feature(dented.mesh.halfedge(above, below)), width < 1);
+  }
 }
 
 TEST(Features, of_tiny_holes_are_corners)

@@ -110,7 +110,10 @@ public:
   Features run(const Execution& execution)
   {
     mark_feature_edges(execution);
-    if (parameters_.detect_ridges) unmark_slivers(execution);
+    if (parameters_.detect_ridges) {
+      unmark_folds(execution);
+      unmark_wrong_diagonals(execution);
+    }
     // what follows is sequential, but only along the features
     feature_vertices_ = pack(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
       return feature_degree(Index(v)) > 0;
@@ -166,10 +169,10 @@ private:
     });
   }
 
-  /// Slivers that turn away from their neighbours are folds rather than shapes. Their normals mean nothing: that of
-  /// the face behind the longest edge, on which a sliver lies, takes their place.
+  /// Folds are noise rather than shapes, and their normals mean nothing: that of the face behind the longest edge, on which
+  /// a sliver lies, takes their place.
   template <class Execution>
-  void unmark_slivers(const Execution& execution)
+  void unmark_folds(const Execution& execution)
   {
     const std::vector<Index> folds = pack(execution, mesh_.number_of_faces(), [&](std::size_t f) {
       return is_fold(Index(f));
@@ -183,14 +186,67 @@ private:
     }
   }
 
-  /// Whether a face is a sliver that turns away from all its neighbours; or is turned over at its longest edge and
-  /// another one, for folds may be divided into several slivers.
+  /// Whether two of three hold: a face is a sliver; it turns away from all its neighbours; it is turned over at its longest
+  /// edge and another one. One alone may be a shape: slivers fill arcs, and plates have tips.
   bool is_fold(Index f) const
   {
     const Index longest = longest_edge(f), a = Mesh_view::next(longest), b = Mesh_view::previous(longest);
-    if (is_feature_[longest] != ridge || normal(f).norm() >= sliver_height * squared_length(longest)) return false;
+    if (is_feature_[longest] != ridge) return false;
     const auto is_over = [&](Index h) { return is_feature_[h] == ridge && is_turned(h, cosine_of_fold); };
-    return (is_feature_[a] == ridge && is_feature_[b] == ridge) || (is_over(longest) && (is_over(a) || is_over(b)));
+    const bool is_sliver = normal(f).norm() < sliver_height * squared_length(longest);
+    const bool turns_away = is_feature_[a] == ridge && is_feature_[b] == ridge;
+    const bool lies_over = is_over(longest) && (is_over(a) || is_over(b));
+    return int(is_sliver) + int(turns_away) + int(lies_over) >= 2;
+  }
+
+  /// Where long faces cross a bend of the surface, some of their edges are the wrong diagonals, and the bend becomes a row of
+  /// dents.
+  template <class Execution>
+  void unmark_wrong_diagonals(const Execution& execution)
+  {
+    const std::vector<Index> wrong = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
+      return bends_to_and_fro(Index(h)) && is_flatter_across(Index(h));
+    });
+    for (const Index h : wrong) set_mark(h, none);
+  }
+
+  /// Whether `h` is the middle stroke of a Z of three ridges along its two faces, and bends the other way than the others.
+  bool bends_to_and_fro(Index h) const
+  {
+    if (!mesh_.is_edge_owner(h) || is_feature_[h] != ridge) return false;
+    const bool is_convex_itself = is_convex(h);
+    const auto bends_back = [&](Index g) { return is_feature_[g] == ridge && is_convex(g) != is_convex_itself; };
+    const Index t = mesh_.twin[h];
+    return (bends_back(Mesh_view::next(h)) && bends_back(Mesh_view::next(t))) ||
+           (bends_back(Mesh_view::previous(h)) && bends_back(Mesh_view::previous(t)));
+  }
+
+  /// Whether the two faces of `h` would turn by less if they met at the other diagonal, and all five edges of the two together
+  /// would, too.
+  bool is_flatter_across(Index h) const
+  {
+    const Index t = mesh_.twin[h];
+    const Vector_3 &a = points_[mesh_.source(h)], &b = points_[mesh_.target(h)];
+    const Vector_3 &c = points_[mesh_.apex(h)], &d = points_[mesh_.apex(t)];
+    const Vector_3 at_a = (d - a).cross(c - a), at_b = (c - b).cross(d - b); // normals of the faces on both sides of c d
+    const double now = turn(normal(Mesh_view::face(h)), normal(Mesh_view::face(t))), across = turn(at_a, at_b);
+    double gain = now - across;
+    const auto compare = [&](Index g, const Vector_3& with) {
+      if (mesh_.is_border(g)) return;
+      const Vector_3 behind = normal(Mesh_view::face(mesh_.twin[g]));
+      gain += turn(normal(Mesh_view::face(g)), behind) - turn(with, behind);
+    };
+    for (const Index g : {Mesh_view::previous(h), Mesh_view::next(t)}) compare(g, at_a);
+    for (const Index g : {Mesh_view::next(h), Mesh_view::previous(t)}) compare(g, at_b);
+    return across < now && gain > 0;
+  }
+
+  static double turn(const Vector_3& a, const Vector_3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+  bool is_convex(Index h) const
+  {
+    const Vector_3 to_other_apex = points_[mesh_.apex(mesh_.twin[h])] - points_[mesh_.source(h)];
+    return to_other_apex.dot(normal(Mesh_view::face(h))) < 0;
   }
 
   Index longest_edge(Index f) const
