@@ -21,7 +21,7 @@ namespace SMA = bench::SMA;
 
 struct Options
 {
-  double gradation = SMA::default_gradation;
+  double gradation = SMA::Curvature_metric_field(1).gradation;
   double feature_angle = SMA::Feature_parameters().ridge_angle;
 };
 

@@ -27,7 +27,7 @@ int main(int argc, char* argv[])
   const auto is_ridge = mesh.add_property_map<Mesh::Edge_index, bool>("e:ridge", false).first;
 
   SMA::Curvature_metric_field field(0.001); // of the diagonal of the bounding box
-  field.gradation = 1.3;                    // neighbouring sizes differ less than by default
+  field.gradation = 1.2;                    // neighbouring sizes differ less than by default
   const auto parameters = SMA::parameters::feature_angle(40).edge_is_constrained_map(is_ridge);
   const SMA::Adaptation_report report = SMA::adapt_surface_mesh(mesh, field, parameters);
 

@@ -80,8 +80,8 @@ inline po::options_description described_options(Options& o)
     ("hmin", po::value(&o.hmin)->value_name("H"), "lower bound on the sizes")
     ("hmax", po::value(&o.hmax)->value_name("H"), "upper bound on the sizes")
     ("gradation", po::value<double>()->value_name("R")->notifier([&](double r) { o.gradation = r; }),
-     "the sizes at two points one size apart differ by at most this factor; 1: no bound (default: 1.5, no bound for "
-     "--metric)")
+     "the sizes at two points one size apart differ by at most this factor; 1: no bound (default: 1.5, but 1.3 for "
+     "isotropic sizes from the curvature alone, and no bound for --metric)")
     ("feature-angle", po::value<double>()->value_name("DEG")->notifier([&](double a) { o.feature_angle = a; }),
      "edges whose faces meet at a larger angle are kept sharp (default: 45)")
     ("no-features", po::bool_switch(&o.no_features), "do not look for sharp edges")

@@ -30,6 +30,10 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+/// The default gradation of isotropic sizes from the curvature. With as many vertices these are as near to the surface as
+/// with `default_gradation`, and the faces are better; stretched ones are less near, so that it is not for tensors.
+constexpr double default_gradation_of_isotropic_curvature = 1.3;
+
 /// The same edge length everywhere, in the unit of the coordinates.
 /// \cgalModels `MetricField`
 struct Uniform_metric_field
@@ -56,7 +60,8 @@ struct Curvature_metric_field
   double hmin = 0;             ///< smallest size; 0: the tolerance itself, with a number of vertices 1e-6 diagonals
   double hmax = 0;             ///< largest size; 0: a tenth of the diagonal, with a number of vertices the diagonal
   bool anisotropic = false;    ///< keep the directions; else the smaller of the two sizes counts in all
-  double gradation = default_gradation;            ///< largest ratio of the sizes at two points one size apart
+  double gradation = 0;        ///< largest ratio of the sizes at two points one size apart, 1: no bound;
+                               ///< 0: 1.3, and 1.5 if `anisotropic`
   double max_anisotropy = default_max_anisotropy;  ///< largest ratio of the two sizes at a point
   bool noisy = false;          ///< the points are not quite on the surface (scans): smoother, less accurate curvatures
   std::size_t vertices = 0;    ///< if not 0, the tolerance is that with which the mesh has so many vertices
@@ -216,6 +221,12 @@ bool wants_proximity(const Intersection_metric_field<Fields...>& field)
   return std::apply([](const auto&... f) { return (wants_proximity(f) || ...); }, field.fields);
 }
 
+inline double gradation(const Curvature_metric_field& field)
+{
+  if (field.gradation > 0) return field.gradation;
+  return field.anisotropic ? default_gradation : default_gradation_of_isotropic_curvature;
+}
+
 template <class Execution, class Import, class Reference, class Use>
 void with_vertex_metric(const Execution& execution, const Curvature_metric_field& field, const Import&,
                         const Reference& reference, const Use& use)
@@ -227,7 +238,7 @@ void with_vertex_metric(const Execution& execution, const Curvature_metric_field
                                                 : Size_bounds(field.hmin > 0 ? field.hmin : (std::min)(tolerance, hmax), hmax);
   Scalable_metric metric{curvature_tensors(execution, reference, field.anisotropic ? field.max_anisotropy : 1,
                                            field.noisy ? Jet_fit::noisy : Jet_fit::exact),
-                         bounds, field.gradation};
+                         bounds, gradation(field)};
   if (wants_proximity(field)) metric.fixed = proximity_tensors(execution, reference, bounds);
   const double scale = 1 / (6 * tolerance);
   if (field.anisotropic) use_scaled<Metric_tensor_3>(execution, reference, metric, field.vertices, scale, use);
