@@ -60,12 +60,11 @@ struct Corner_products
   }
 };
 
-/// The least cosine between a thin face and the surface normals at its corners, as it counts among those of others:
-/// from `limit_of_thin` on not less than their `limit`.
-inline double alignment_of_thin_face(double cosine, double limit = min_alignment,
-                                     double limit_of_thin = min_alignment_of_thin_faces)
+/// The least cosine between a thin face and the surface normals at its corners, as it counts among those of others: from
+/// `min_alignment_of_thin_faces` on not less than `min_alignment`.
+inline double alignment_of_thin_face(double cosine)
 {
-  return cosine >= limit_of_thin ? (std::max)(cosine, limit) : cosine;
+  return cosine >= min_alignment_of_thin_faces ? (std::max)(cosine, min_alignment) : cosine;
 }
 
 /// Cosine between a face and the surface normals at its corners from which on none of its edges can be a fold:

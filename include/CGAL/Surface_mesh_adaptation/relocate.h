@@ -17,10 +17,12 @@ Moves vertices on the surface to improve the faces around them (paper, section 3
 
 \cgalNamedParamsBegin
   \cgalParamNBegin{maximum_normal_deviation}
-    \cgalParamDescription{the largest angle between a face and the normals of the surface at its corners that a move may
-                          leave, unless it was larger: the paper's theta_max}
+    \cgalParamDescription{the largest angle between the tangent plane at a vertex and the faces around it that its move
+                          may leave, unless it was larger: the paper's theta_max. Along feature curves the normals at the
+                          other corners of the faces count. Faces are never turned by more than 60 degrees from a normal
+                          at their corners, 84 for thin ones in anisotropic metrics, unless they were}
     \cgalParamType{`double`, in degrees, above 0 and up to 180}
-    \cgalParamDefault{60, and 84 for thin faces in anisotropic metrics}
+    \cgalParamDefault{180: no further limit}
   \cgalParamNEnd
 \cgalNamedParamsEnd
 
@@ -33,9 +35,7 @@ auto relocate(const Execution& execution, TriangleMesh& mesh, const MetricField&
               const NamedParameters& np = CGAL::parameters::default_values()) -> decltype(execution.concurrency(), std::size_t())
 {
   Relocation_thresholds thresholds;
-  thresholds.least_alignment = internal::cosine_of_normal_deviation(np, thresholds.least_alignment);
-  thresholds.least_alignment_of_thin_faces =
-    internal::cosine_of_normal_deviation(np, thresholds.least_alignment_of_thin_faces);
+  thresholds.least_flatness = internal::cosine_of_normal_deviation(np, thresholds.least_flatness);
   return internal::run_kernel(execution, mesh, field, np, 10, [&](const auto& policy, auto& surface) {
     return Relocation(policy, surface, thresholds);
   }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });

@@ -11,7 +11,7 @@
 // Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Where a face
 // is not flat, the test for folds also looks at the vertices behind the ring: if these may be moving, the vertex is put
 // off until they stand still.
-// Invariants: connectivity is not touched; no face is turned farther from the surface than the limit or than it was; the
+// Invariants: connectivity is not touched; no move turns a face farther from the surface than the limits or than it was; the
 // worst face around a vertex never falls below both what it was and `good_quality`, or `good_quality_on_curves` if the
 // vertex lies on one.
 
@@ -39,8 +39,8 @@ struct Relocation_thresholds
 {
   double good_quality = 0.8;   ///< moves that leave no face below are always accepted; worse faces are optimised
   double good_quality_on_curves = 0.65; ///< the same for vertices on curves: equal lengths along these count, too
-  double least_alignment = min_alignment; ///< cosine between a face and the normals at its corners, unless it was less
-  double least_alignment_of_thin_faces = min_alignment_of_thin_faces; ///< the same, see `alignment_of_thin_face()`
+  double least_flatness = -1;  ///< cosine between a face and the tangent plane at a vertex that moves, unless it was less:
+                               ///< the paper's theta_max
   double min_move = 0.03;      ///< metric length below which a move is not worth it
   double noticeable_move = 0.2; ///< the same in the first round over a mesh that is adapted already
 };
@@ -139,7 +139,8 @@ private:
   struct Shape
   {
     double worst = 1;      ///< quality
-    double alignment = 1;
+    double alignment = 1;  ///< least cosine between a face and the surface normals at its corners
+    double flatness = 1;   ///< the same with the normal at the vertex only, if it is not on a curve
   };
 
   double good_quality(Index v) const
@@ -223,9 +224,9 @@ private:
       s.worst = (std::min)(s.worst, q);
       const Corner_products products(n, length, {&v.normal, &a.normal, &b.normal});
       double alignment = length > 0 ? products.least / length : -1;
-      if (is_anisotropic<Metric> && products.is_smooth && is_thin(ea, eb, n))
-        alignment = alignment_of_thin_face(alignment, thresholds_.least_alignment,
-                                           thresholds_.least_alignment_of_thin_faces);
+      const bool is_smooth = v.location.kind == Vertex_class::smooth;
+      s.flatness = (std::min)(s.flatness, is_smooth && length > 0 ? n.dot(v.normal) / length : alignment);
+      if (is_anisotropic<Metric> && products.is_smooth && is_thin(ea, eb, n)) alignment = alignment_of_thin_face(alignment);
       s.alignment = (std::min)(s.alignment, alignment);
     });
     return s;
@@ -240,14 +241,14 @@ private:
       const Vector_3 normal = ea.cross(eb);
       if (!internal::squared_shape(v.metric, a.metric, b.metric, ea, eb, normal).is_at_least(thresholds_.good_quality))
         return false;
-      const double least = (std::max)(flat_alignment, thresholds_.least_alignment);
-      const double limit = least * least * normal.squaredNorm();
-      const auto is_flat_at = [&](const Vector_3& m) {
+      const double squared_area = normal.squaredNorm();
+      const auto is_flat_at = [&](const Vector_3& m, double least) {
         const double dot = normal.dot(m);
-        return dot > 0 && dot * dot >= limit;
+        return dot > 0 && dot * dot >= least * least * squared_area;
       };
       const bool is_a_smooth = a.normal != Vector_3::Zero(), is_b_smooth = b.normal != Vector_3::Zero();
-      if (!is_flat_at(v.normal) || (is_a_smooth && !is_flat_at(a.normal)) || (is_b_smooth && !is_flat_at(b.normal)))
+      if (!is_flat_at(v.normal, (std::max)(flat_alignment, thresholds_.least_flatness)) ||
+          (is_a_smooth && !is_flat_at(a.normal, flat_alignment)) || (is_b_smooth && !is_flat_at(b.normal, flat_alignment)))
         return false;
       // with no smooth corner in common, nothing is known of the face behind: it matters unless the edge is a feature
       return is_a_smooth || is_b_smooth || mesh_.is_feature(mesh_.halfedge(a.vertex, b.vertex));
@@ -279,13 +280,20 @@ private:
            is_upright(v, before, after, moved, attempt);
   }
 
+  /// Whether no face is turned farther from the surface than the limits or than it was.
+  bool is_aligned(const Shape& before, const Shape& after) const
+  {
+    return after.alignment >= (std::min)(min_alignment, before.alignment) &&
+           after.flatness >= (std::min)(thresholds_.least_flatness, before.flatness);
+  }
+
   /// Whether `moved` neither turns a face away from the surface nor folds it over a neighbour more than is the case.
   /// That takes a look at the vertices behind the ring; if one of them may be moving meanwhile, the move is put off.
   template <class StandsStill>
   bool is_upright(Index v, const Shape& before, const Shape& after, const Placed_vertex<Metric>& moved,
                   Attempt<StandsStill>& attempt) const
   {
-    if (after.alignment < (std::min)(thresholds_.least_alignment, before.alignment)) return false;
+    if (!is_aligned(before, after)) return false;
     return is_unfolded(surface_, v, moved.point, attempt.stands_still, attempt.is_put_off);
   }
 
@@ -417,8 +425,7 @@ private:
       [&](const Placed_vertex<Metric>& x, const Vector_2& d) { return moved(x, d); },
       [&](const Placed_vertex<Metric>& x) {
         const Shape s = shape(star, x);
-        const bool is_allowed = s.worst > 0 && longest_edge(x, on_curve) <= longest &&
-                                s.alignment >= (std::min)(thresholds_.least_alignment, before.alignment) &&
+        const bool is_allowed = s.worst > 0 && longest_edge(x, on_curve) <= longest && is_aligned(before, s) &&
                                 !is_turned(star, start.point, x.point);
         return is_allowed ? 1 / s.worst : std::numeric_limits<double>::infinity();
       });
