@@ -382,6 +382,32 @@ TEST(Adapt, stays_on_a_cylinder_of_long_faces)
 }
 
 /// A hole with twelve corners, of which a sliver fills one: the circle through the others would turn it over.
+/// A pointed cone of height 1 over a circle, open below: two rows of long faces.
+Soup cone(Index around, double radius)
+{
+  Soup s = shapes::revolved({{radius, 0}, {0.6 * radius, 0.4}}, around);
+  const Index tip = Index(s.points.size());
+  s.points.push_back({0, 0, 1});
+  for (Index i = 0; i < around; ++i) s.triangles.push_back({around + i, around + (i + 1) % around, tip});
+  return s;
+}
+
+// All faces at the tip are far off its normal.
+TEST(Adapt, divides_the_faces_of_a_cone_up_to_its_tip)
+{
+  for (const double radius : {0.2, 0.4})
+    for (const Index around : {12u, 24u}) {
+      const Soup before = cone(around, radius);
+      Mesh mesh = shapes::mesh<Mesh>(before);
+      const double size = 0.05;
+      const SMA::Adaptation_report report = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size));
+      expect_same_surface(before, mesh);
+      EXPECT_GE(report.final.in_range, 0.95);
+      for (const auto e : mesh.edges())
+        EXPECT_LT(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))), 4 * size * size);
+    }
+}
+
 TEST(Adapt, divides_the_edge_of_a_sliver_that_fills_an_arc)
 {
   Soup before = shapes::revolved({{1, 0}, {2, 0}}, 12);

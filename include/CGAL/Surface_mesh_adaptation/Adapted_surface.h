@@ -29,6 +29,16 @@ namespace Surface_mesh_adaptation {
 /// faces it replaces was worse: 60 degrees.
 constexpr double min_alignment = 0.5;
 
+/// The same where a face was worse: 84 degrees, or what it was. At the tip of a spike all faces are far off the normal, and
+/// what takes their place is now nearer to it, now less near.
+constexpr double min_alignment_at_spikes = 0.1;
+
+/// The least cosine that may take the place of `before`.
+inline double least_alignment_after(double before)
+{
+  return before >= min_alignment ? min_alignment : (std::min)(before, min_alignment_at_spikes);
+}
+
 /// The same for thin faces between smooth vertices, in anisotropic metrics: 84 degrees. A long edge along a thin layer
 /// lies deeper below a curved surface than the face beside it is high. The face stands upright there, but next to the
 /// surface.

@@ -283,7 +283,7 @@ private:
     const auto& pattern = internal::Split_pattern::of(code);
     const Index a = mesh_.corner[3 * f], b = mesh_.corner[3 * f + 1], c = mesh_.corner[3 * f + 2];
     const Vector_3 parent = surface_.normal(a, b, c);
-    const double limit = (std::min)(min_alignment, surface_.alignment(parent, a, b, c));
+    const double limit = least_alignment_after(surface_.alignment(parent, a, b, c));
     Ring<Triangle_points> children;
     for (std::size_t i = 0; i < std::size_t(pattern.number_of_children); ++i) {
       if (!is_child_upright(plan, f, pattern.child[i], parent, limit)) return false;

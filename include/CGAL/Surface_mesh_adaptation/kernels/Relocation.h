@@ -283,7 +283,7 @@ private:
   /// Whether no face is turned farther from the surface than the limits or than it was.
   bool is_aligned(const Shape& before, const Shape& after) const
   {
-    return after.alignment >= (std::min)(min_alignment, before.alignment) &&
+    return after.alignment >= least_alignment_after(before.alignment) &&
            after.flatness >= (std::min)(thresholds_.least_flatness, before.flatness);
   }
 

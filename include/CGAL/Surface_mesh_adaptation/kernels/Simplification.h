@@ -179,7 +179,7 @@ private:
     if (surface_.vertex_class(s) == Vertex_class::curve && !is_curve_preserved(surface_, s, d)) return false;
 
     const double quality_limit = (std::min)(thresholds_.min_quality, star.quality);
-    const double alignment_limit = (std::min)(min_alignment, star.alignment);
+    const double alignment_limit = least_alignment_after(star.alignment);
     const Index on_curve = thresholds_.weigh_neighbors ? next_on_curve(surface_, s, d) : no_index;
     const double length_limit = (std::max)(thresholds_.max_length, star.length);
     const bool may_be_long = is_anisotropic<typename Surface::Metric> && thresholds_.weigh_neighbors;

@@ -193,7 +193,8 @@ private:
     if (surface_.length(a, b) > (std::max)(thresholds_.max_length, surface_.length(p, q))) return false;
     const Vector_3 old1 = surface_.normal(p, q, b), old2 = surface_.normal(q, p, a);
     const Vector_3 new1 = surface_.normal(a, b, p), new2 = surface_.normal(b, a, q);
-    const double limit = (std::min)({min_alignment, surface_.alignment(old1, p, q, b), surface_.alignment(old2, q, p, a)});
+    const double limit =
+      least_alignment_after((std::min)(surface_.alignment(old1, p, q, b), surface_.alignment(old2, q, p, a)));
     if (surface_.alignment(new1, a, b, p) < limit || surface_.alignment(new2, b, a, q) < limit) return false;
     const double turn = (std::min)(min_turn, old1.dot(old2));
     const bool is_thin = surface_.is_thin(p, q, b) && surface_.is_thin(q, p, a) && surface_.is_thin(a, b, p) &&
