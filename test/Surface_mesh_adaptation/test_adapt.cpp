@@ -392,8 +392,8 @@ Soup cone(Index around, double radius)
   return s;
 }
 
-// All faces at the tip are far off its normal.
-TEST(Adapt, divides_the_faces_of_a_cone_up_to_its_tip)
+// All faces at the point are far off its normal.
+TEST(Adapt, divides_the_faces_of_a_cone_up_to_its_point_and_keeps_that)
 {
   for (const double radius : {0.2, 0.4})
     for (const Index around : {12u, 24u}) {
@@ -405,6 +405,8 @@ TEST(Adapt, divides_the_faces_of_a_cone_up_to_its_tip)
       EXPECT_GE(report.final.in_range, 0.95);
       for (const auto e : mesh.edges())
         EXPECT_LT(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))), 4 * size * size);
+      const auto all = vertices(mesh);
+      EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](auto v) { return mesh.point(v).z() == 1; }));
     }
 }
 

@@ -293,6 +293,28 @@ TEST(Features, are_on_no_wrong_diagonals)
   }
 }
 
+TEST(Features, have_corners_at_the_points_of_cones)
+{
+  const Index around = 24;
+  for (const double height : {0.4, 0.8, 1.0, 1.3, 3.0}) {
+    Soup s = shapes::revolved({{1, 0}}, around);
+    s.points.push_back({0, 0, height});
+    for (Index i = 0; i < around; ++i) s.triangles.push_back({i, (i + 1) % around, around});
+    const double angles = 2 * pi / std::hypot(1, height); // of the faces around the point, that of a cone
+    EXPECT_EQ(reference(s).features.vertex_class[around] == Vertex_class::corner, angles < 240 * pi / 180) << height;
+  }
+  EXPECT_EQ(count(reference(shapes::icosahedron(), Feature_parameters()).features, Vertex_class::corner), 0u);
+  Feature_parameters none;
+  none.detect_ridges = false;
+  const Soup spike = [] {
+    Soup s = shapes::sphere(2);
+    s.points[0] *= 3;
+    return s;
+  }();
+  EXPECT_EQ(reference(spike).features.vertex_class[0], Vertex_class::corner);
+  EXPECT_EQ(reference(spike, none).features.vertex_class[0], Vertex_class::smooth);
+}
+
 TEST(Features, of_tiny_holes_are_corners)
 {
   Soup s = shapes::sphere(3);

@@ -94,6 +94,13 @@ constexpr std::size_t shortest_isolated_ridge = 5, shortest_branch = 3;
 /// Faces that are less high than this part of their longest edge are slivers.
 constexpr double sliver_height = 0.125;
 
+/// Vertices around which the angles of the faces add up to less than this, 240 degrees, are points of cones or spikes. On
+/// meshes of smooth shapes they add up to about 300 degrees at least.
+constexpr double angle_around_point = 4 * CGAL_PI / 3;
+
+/// Length of the mean of the unit normals of the faces at such a point, at most: .67 for a cone with that angle.
+constexpr double cosine_at_point = 0.8;
+
 /// Cosine of the angle, 150 degrees, by which faces turn where one of them is folded over.
 constexpr double cosine_of_fold = -0.866;
 
@@ -122,8 +129,7 @@ public:
     features_.vertex_class.assign(mesh_.number_of_vertices(), Vertex_class::smooth);
     features_.node_of_vertex.assign(mesh_.number_of_vertices(), Curve_node());
     for_each_index(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
-      if (!parameters_.vertex_is_constrained.empty() && parameters_.vertex_is_constrained[v])
-        features_.vertex_class[v] = Vertex_class::corner;
+      if (is_fixed(Index(v))) features_.vertex_class[v] = Vertex_class::corner;
     });
     for (const Index v : feature_vertices_) features_.vertex_class[v] = classify(v);
     make_corners_on_tiny_cycles();
@@ -315,9 +321,33 @@ private:
     for (std::size_t i = 1; i < chain.size(); ++i) set_mark(mesh_.halfedge(chain[i - 1], chain[i]), none);
   }
 
+  /// Whether `v` is a corner whatever the features at it.
+  bool is_fixed(Index v) const
+  {
+    return (!parameters_.vertex_is_constrained.empty() && parameters_.vertex_is_constrained[v]) ||
+           (parameters_.detect_ridges && is_point(v));
+  }
+
+  /// Whether `v` is the point of a cone. The cheap test of the normals comes first.
+  bool is_point(Index v) const
+  {
+    if (mesh_.is_border_vertex(v)) return false;
+    Vector_3 sum = Vector_3::Zero();
+    double faces = 0, angles = 0;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      sum += normal(Mesh_view::face(h)).normalized();
+      ++faces;
+    });
+    if (sum.norm() >= cosine_at_point * faces) return false;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      angles += turn(points_[mesh_.target(h)] - points_[v], points_[mesh_.apex(h)] - points_[v]);
+    });
+    return angles < angle_around_point;
+  }
+
   Vertex_class classify(Index v) const
   {
-    if (!parameters_.vertex_is_constrained.empty() && parameters_.vertex_is_constrained[v]) return Vertex_class::corner;
+    if (is_fixed(v)) return Vertex_class::corner;
     Ring<Index> along;
     for_each_feature_neighbor(v, [&](Index w, std::uint8_t) { along.push_back(w); });
     if (along.empty()) return Vertex_class::smooth;
@@ -469,8 +499,8 @@ private:
 } // namespace internal
 
 /// Detects the features of a mesh and writes the curve of every halfedge into `mesh.curve`. A vertex on one feature
-/// curve that does not turn sharply there is a curve vertex; one at which curves end, meet, branch or turn, or which
-/// is constrained, is a corner.
+/// curve that does not turn sharply there is a curve vertex; one at which curves end, meet, branch or turn, which is
+/// constrained, or which is the point of a cone is a corner.
 template <class Execution>
 Features detect_features(const Execution& execution, Mesh_view& mesh, const std::vector<Vector_3>& points,
                          const Feature_parameters& parameters)
