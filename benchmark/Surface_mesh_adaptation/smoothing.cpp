@@ -104,8 +104,8 @@ double diagonal(const Soup& soup)
 }
 
 /// Relocation to the sizes that the mesh has, at most a tenth of the diagonal; no move leaves a face more than `theta`
-/// degrees off the tangent plane at the vertex, or farther than it was. Sharp edges are kept, unless the surface is known to
-/// have none: the other methods keep none, and folded faces look like some.
+/// degrees off the tangent plane at the vertex, or farther than it was. Sharp edges are kept, unless the surface is
+/// known to have none: the other methods keep none, and folded faces look like some.
 Soup relocated(const Soup& soup, bool keeps_features, double theta = 180)
 {
   const Neighbors neighbors = neighbors_of(soup);

@@ -403,8 +403,10 @@ TEST(Adapt, divides_the_faces_of_a_cone_up_to_its_point_and_keeps_that)
       const SMA::Adaptation_report report = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(size));
       expect_same_surface(before, mesh);
       EXPECT_GE(report.final.in_range, 0.95);
-      for (const auto e : mesh.edges())
-        EXPECT_LT(CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))), 4 * size * size);
+      for (const auto e : mesh.edges()) {
+        const auto &p = mesh.point(mesh.vertex(e, 0)), &q = mesh.point(mesh.vertex(e, 1));
+        EXPECT_LT(CGAL::squared_distance(p, q), 4 * size * size);
+      }
       const auto all = vertices(mesh);
       EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](auto v) { return mesh.point(v).z() == 1; }));
     }

@@ -552,7 +552,7 @@ std::vector<double> deviations(const Soup& soup)
   return result;
 }
 
-// Every third vertex in both directions may move: none of their neighbours, so that the faces around them are theirs alone.
+// Every third vertex in both directions may move, none of their neighbours: the faces around them are theirs alone.
 TEST(Relocate, keeps_faces_near_the_tangent_plane_of_what_moves)
 {
   const std::size_t around = 60, across = 30;

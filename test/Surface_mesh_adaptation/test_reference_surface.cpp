@@ -214,8 +214,8 @@ TEST(Features, that_branch_off_others_and_end_at_once_are_noise)
   EXPECT_EQ(number_of_curves(5, false), boundary + 1);
 }
 
-/// Puts a vertex into face `f` that lies beyond the edge from its corner `i` on, by a part of the height of the face: the
-/// face over that edge is folded over. Returns the new vertex.
+/// Puts a vertex into face `f` that lies beyond the edge from its corner `i` on, by a part of the height of the face:
+/// the face over that edge is folded over. Returns the new vertex.
 Index fold(Soup& s, std::size_t f, std::size_t i, double part = 0.02)
 {
   const shapes::Triangle t = s.triangles[f];
@@ -288,7 +288,7 @@ TEST(Features, are_on_no_wrong_diagonals)
     for (Index i = 0; i < edges; ++i) EXPECT_TRUE(straight.mesh.is_feature(straight.mesh.halfedge(i, i + 1)));
     const Surface dented = reference(plates(edges, width, flipped));
     const Index above = edges + 1 + flipped, below = above + edges;
-    // the ridge turns by 90 degrees; the other diagonal by 71 where the faces are wide along it, by 141 where they are long
+    // the ridge turns by 90 degrees; the other diagonal by 71 where the faces are wide along it, else by 141
     EXPECT_EQ(dented.mesh.is_feature(dented.mesh.halfedge(above, below)), width < 1);
   }
 }

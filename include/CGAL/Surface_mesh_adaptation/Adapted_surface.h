@@ -29,8 +29,8 @@ namespace Surface_mesh_adaptation {
 /// faces it replaces was worse: 60 degrees.
 constexpr double min_alignment = 0.5;
 
-/// The same where a face was worse: 84 degrees, or what it was. At the tip of a spike all faces are far off the normal, and
-/// what takes their place is now nearer to it, now less near.
+/// The same where a face was worse: 84 degrees, or what it was. At the tip of a spike all faces are far off the normal,
+/// and what takes their place is now nearer to it, now less near.
 constexpr double min_alignment_at_spikes = 0.1;
 
 /// The least cosine that may take the place of `before`.
@@ -70,8 +70,8 @@ struct Corner_products
   }
 };
 
-/// The least cosine between a thin face and the surface normals at its corners, as it counts among those of others: from
-/// `min_alignment_of_thin_faces` on not less than `min_alignment`.
+/// The least cosine between a thin face and the surface normals at its corners, as it counts among those of others:
+/// from `min_alignment_of_thin_faces` on not less than `min_alignment`.
 inline double alignment_of_thin_face(double cosine)
 {
   return cosine >= min_alignment_of_thin_faces ? (std::max)(cosine, min_alignment) : cosine;

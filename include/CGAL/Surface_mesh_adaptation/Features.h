@@ -94,8 +94,8 @@ constexpr std::size_t shortest_isolated_ridge = 5, shortest_branch = 3;
 /// Faces that are less high than this part of their longest edge are slivers.
 constexpr double sliver_height = 0.125;
 
-/// Vertices around which the angles of the faces add up to less than this, 240 degrees, are points of cones or spikes. On
-/// meshes of smooth shapes they add up to about 300 degrees at least.
+/// Vertices around which the angles of the faces add up to less than this, 240 degrees, are points of cones or spikes.
+/// On meshes of smooth shapes they add up to about 300 degrees at least.
 constexpr double angle_around_point = 4 * CGAL_PI / 3;
 
 /// Length of the mean of the unit normals of the faces at such a point, at most: .67 for a cone with that angle.
@@ -175,8 +175,8 @@ private:
     });
   }
 
-  /// Folds are noise rather than shapes, and their normals mean nothing: that of the face behind the longest edge, on which
-  /// a sliver lies, takes their place.
+  /// Folds are noise rather than shapes, and their normals mean nothing: that of the face behind the longest edge, on
+  /// which a sliver lies, takes their place.
   template <class Execution>
   void unmark_folds(const Execution& execution)
   {
@@ -192,8 +192,8 @@ private:
     }
   }
 
-  /// Whether two of three hold: a face is a sliver; it turns away from all its neighbours; it is turned over at its longest
-  /// edge and another one. One alone may be a shape: slivers fill arcs, and plates have tips.
+  /// Whether two of three hold: a face is a sliver; it turns away from all its neighbours; it is turned over at its
+  /// longest edge and another one. One alone may be a shape: slivers fill arcs, and plates have tips.
   bool is_fold(Index f) const
   {
     const Index longest = longest_edge(f), a = Mesh_view::next(longest), b = Mesh_view::previous(longest);
@@ -205,8 +205,8 @@ private:
     return int(is_sliver) + int(turns_away) + int(lies_over) >= 2;
   }
 
-  /// Where long faces cross a bend of the surface, some of their edges are the wrong diagonals, and the bend becomes a row of
-  /// dents.
+  /// Where long faces cross a bend of the surface, some of their edges are the wrong diagonals, and the bend becomes a
+  /// row of dents.
   template <class Execution>
   void unmark_wrong_diagonals(const Execution& execution)
   {
@@ -216,7 +216,8 @@ private:
     for (const Index h : wrong) set_mark(h, none);
   }
 
-  /// Whether `h` is the middle stroke of a Z of three ridges along its two faces, and bends the other way than the others.
+  /// Whether `h` is the middle stroke of a Z of three ridges along its two faces, and bends the other way than the
+  /// others.
   bool bends_to_and_fro(Index h) const
   {
     if (!mesh_.is_edge_owner(h) || is_feature_[h] != ridge) return false;
@@ -227,14 +228,14 @@ private:
            (bends_back(Mesh_view::previous(h)) && bends_back(Mesh_view::previous(t)));
   }
 
-  /// Whether the two faces of `h` would turn by less if they met at the other diagonal, and all five edges of the two together
-  /// would, too.
+  /// Whether the two faces of `h` would turn by less if they met at the other diagonal, and all five edges of the two
+  /// together would, too.
   bool is_flatter_across(Index h) const
   {
     const Index t = mesh_.twin[h];
     const Vector_3 &a = points_[mesh_.source(h)], &b = points_[mesh_.target(h)];
     const Vector_3 &c = points_[mesh_.apex(h)], &d = points_[mesh_.apex(t)];
-    const Vector_3 at_a = (d - a).cross(c - a), at_b = (c - b).cross(d - b); // normals of the faces on both sides of c d
+    const Vector_3 at_a = (d - a).cross(c - a), at_b = (c - b).cross(d - b); // normals on both sides of c d
     const double now = turn(normal(Mesh_view::face(h)), normal(Mesh_view::face(t))), across = turn(at_a, at_b);
     double gain = now - across;
     const auto compare = [&](Index g, const Vector_3& with) {

@@ -30,8 +30,8 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// The default gradation of isotropic sizes from the curvature. With as many vertices these are as near to the surface as
-/// with `default_gradation`, and the faces are better; stretched ones are less near, so that it is not for tensors.
+/// The default gradation of isotropic sizes from the curvature. With as many vertices these are as near to the surface
+/// as with `default_gradation`, and the faces are better; stretched ones are less near, so that it is not for tensors.
 constexpr double default_gradation_of_isotropic_curvature = 1.3;
 
 /// The same edge length everywhere, in the unit of the coordinates.

@@ -18,9 +18,10 @@ Moves vertices on the surface to improve the faces around them (paper, section 3
 \cgalNamedParamsBegin
   \cgalParamNBegin{maximum_normal_deviation}
     \cgalParamDescription{the largest angle between the tangent plane at a vertex and the faces around it that its move
-                          may leave, unless it was larger: the paper's theta_max. Along feature curves the normals at the
-                          other corners of the faces count. Whatever it is, no face is turned by more than 60 degrees from
-                          a normal at its corners, 84 where one was already and, in anisotropic metrics, for thin ones}
+                          may leave, unless it was larger: the paper's theta_max. Along feature curves the normals at
+                          the other corners of the faces count. Whatever it is, no face is turned by more than 60
+                          degrees from a normal at its corners, 84 where one was already and, in anisotropic metrics,
+                          for thin ones}
     \cgalParamType{`double`, in degrees, above 0 and up to 180}
     \cgalParamDefault{180: no further limit}
   \cgalParamNEnd

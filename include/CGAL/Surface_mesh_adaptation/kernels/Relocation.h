@@ -11,9 +11,9 @@
 // Conflict neighbourhood: distance-1, because normals and metrics follow from the vertex's own location. Where a face
 // is not flat, the test for folds also looks at the vertices behind the ring: if these may be moving, the vertex is put
 // off until they stand still.
-// Invariants: connectivity is not touched; no move turns a face farther from the surface than the limits or than it was; the
-// worst face around a vertex never falls below both what it was and `good_quality`, or `good_quality_on_curves` if the
-// vertex lies on one.
+// Invariants: connectivity is not touched; no move turns a face farther from the surface than the limits or than it
+// was; the worst face around a vertex never falls below both what it was and `good_quality`, or
+// `good_quality_on_curves` if the vertex lies on one.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
@@ -39,8 +39,8 @@ struct Relocation_thresholds
 {
   double good_quality = 0.8;   ///< moves that leave no face below are always accepted; worse faces are optimised
   double good_quality_on_curves = 0.65; ///< the same for vertices on curves: equal lengths along these count, too
-  double least_flatness = -1;  ///< cosine between a face and the tangent plane at a vertex that moves, unless it was less:
-                               ///< the paper's theta_max
+  double least_flatness = -1;  ///< cosine between a face and the tangent plane at a vertex that moves, unless it was
+                               ///< less: the paper's theta_max
   double min_move = 0.03;      ///< metric length below which a move is not worth it
   double noticeable_move = 0.2; ///< the same in the first round over a mesh that is adapted already
 };
@@ -226,7 +226,8 @@ private:
       double alignment = length > 0 ? products.least / length : -1;
       const bool is_smooth = v.location.kind == Vertex_class::smooth;
       s.flatness = (std::min)(s.flatness, is_smooth && length > 0 ? n.dot(v.normal) / length : alignment);
-      if (is_anisotropic<Metric> && products.is_smooth && is_thin(ea, eb, n)) alignment = alignment_of_thin_face(alignment);
+      if (is_anisotropic<Metric> && products.is_smooth && is_thin(ea, eb, n))
+        alignment = alignment_of_thin_face(alignment);
       s.alignment = (std::min)(s.alignment, alignment);
     });
     return s;
@@ -248,7 +249,8 @@ private:
       };
       const bool is_a_smooth = a.normal != Vector_3::Zero(), is_b_smooth = b.normal != Vector_3::Zero();
       if (!is_flat_at(v.normal, (std::max)(flat_alignment, thresholds_.least_flatness)) ||
-          (is_a_smooth && !is_flat_at(a.normal, flat_alignment)) || (is_b_smooth && !is_flat_at(b.normal, flat_alignment)))
+          (is_a_smooth && !is_flat_at(a.normal, flat_alignment)) ||
+          (is_b_smooth && !is_flat_at(b.normal, flat_alignment)))
         return false;
       // with no smooth corner in common, nothing is known of the face behind: it matters unless the edge is a feature
       return is_a_smooth || is_b_smooth || mesh_.is_feature(mesh_.halfedge(a.vertex, b.vertex));
