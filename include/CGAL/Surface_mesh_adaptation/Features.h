@@ -346,9 +346,10 @@ private:
     return angles < angle_around_point;
   }
 
+  /// The class of a vertex with features, of which those that are fixed are known.
   Vertex_class classify(Index v) const
   {
-    if (is_fixed(v)) return Vertex_class::corner;
+    if (features_.vertex_class[v] == Vertex_class::corner) return Vertex_class::corner;
     Ring<Index> along;
     for_each_feature_neighbor(v, [&](Index w, std::uint8_t) { along.push_back(w); });
     if (along.empty()) return Vertex_class::smooth;

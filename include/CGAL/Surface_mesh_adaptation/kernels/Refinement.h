@@ -276,8 +276,8 @@ private:
     codes_.swap(chosen_);
   }
 
-  /// Whether the children turn neither far from their parent, unless they are thin, nor, further than it does, from the
-  /// surface normals at their corners.
+  /// Whether the children turn neither far from their parent, unless they are thin, nor from the surface normals at
+  /// their corners, see `least_alignment_after()`.
   bool are_children_upright(const Restructuring& plan, Index f, std::uint8_t code) const
   {
     const auto& pattern = internal::Split_pattern::of(code);
