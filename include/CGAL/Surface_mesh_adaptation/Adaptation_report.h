@@ -50,6 +50,7 @@ struct Adaptation_report
   Mesh_statistics final;           ///< the output in the same metric
   std::size_t rounds = 0;          ///< rounds done
   bool stopped = false;            ///< by the visitor
+  std::vector<std::string> warnings; ///< what was asked for and not reached, one sentence each
   std::size_t fallback_patches = 0; ///< faces of the input over which the surface is less smooth than elsewhere
   std::vector<Kernel_report> kernels;
   std::vector<Mesh_statistics> after_round; ///< in its metric: scaled, where a number of vertices was missed
@@ -75,6 +76,18 @@ void write_json_list(std::ostream& out, const Container& items, const Write& wri
     separator = ", ";
   }
   out << ']';
+}
+
+/// A string of JSON: quoted, and escaped where it has to be.
+inline void write_json(std::ostream& out, const std::string& text)
+{
+  out << '"';
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out << '\\' << c;
+    else if (static_cast<unsigned char>(c) < 0x20) out << ' ';
+    else out << c;
+  }
+  out << '"';
 }
 
 inline void write_json(std::ostream& out, const Mesh_statistics& s)
@@ -109,6 +122,8 @@ inline void Adaptation_report::write_json(std::ostream& out) const
   internal::write_json(out, final);
   if (tolerance > 0)
     out << ",\n  \"tolerance\": " << tolerance << ", \"certified_distance\": " << certified_distance;
+  out << ",\n  \"warnings\": ";
+  internal::write_json_list(out, warnings, [&](const std::string& w) { internal::write_json(out, w); });
   out << ",\n  \"after_round\": ";
   internal::write_json_list(out, after_round, [&](const Mesh_statistics& s) {
     out << "\n    ";
