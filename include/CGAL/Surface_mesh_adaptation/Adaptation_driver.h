@@ -61,6 +61,7 @@ public:
     if constexpr (!std::is_same_v<IsFitted, std::false_type>)
       if (is_fitted) fit(shape_weight);
     report_.final = number_of_vertices > 0 || is_fitted ? mesh_statistics(execution_, surface_) : current();
+    warn();
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report_;
   }
@@ -170,6 +171,7 @@ private:
   {
     std::size_t split = 0;
     const auto refine = [&](Sweep_counts& c) {
+      if (refinement_.is_at_limit()) return std::size_t(0);
       return refinement_.sweep(negligible(split == 0 ? first_refine_share : refine_share), c);
     };
     const auto simplify = [&](Sweep_counts& c) { return simplification_.sweep(c); };
@@ -195,6 +197,18 @@ private:
       if (regularized > 0) run_kernel("swap", max_swap_sweeps, swap);
     }
     run_kernel("relocate", max_relocate_sweeps, relocate);
+  }
+
+  /// Says what was not reached.
+  void warn()
+  {
+    if (report_.stopped) return;
+    const auto percent = [](double share) { return internal::number(std::round(1000 * share) / 10) + " %"; };
+    if (refinement_.is_at_limit())
+      report_.warnings.push_back("refinement was stopped at " + std::to_string(report_.final.vertices) +
+                                 " vertices, far above what the metric asks for or at what is possible");
+    if (report_.final.in_range < expected_share)
+      report_.warnings.push_back("only " + percent(report_.final.in_range) + " of the edges have the length asked for");
   }
 
   void fit(double shape_weight)
@@ -240,7 +254,7 @@ private:
     if (report_.stopped) return 0;
     const auto start = std::chrono::steady_clock::now();
     Sweep_counts counts;
-    for (std::size_t i = 0; i < max_sweeps; ++i)
+    for (std::size_t i = 0; i < max_sweeps && !is_stopped(execution_); ++i)
       if (is_negligible(sweep(counts))) break;
     Kernel_report& k = entry(name);
     k.sweeps += counts.sweeps;
@@ -249,7 +263,7 @@ private:
     k.deferred += counts.deferred;
     k.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     visitor_.kernel_done(k);
-    report_.stopped = !visitor_.go_on();
+    report_.stopped = is_stopped(execution_) || !visitor_.go_on();
     return counts.applied;
   }
 
@@ -280,6 +294,7 @@ private:
   static constexpr int least_steps_of_fit = 4, max_steps_of_fit = 16;
   static constexpr double min_fitted_quality = 0.5;
   static constexpr double adapted_share = 0.95;          // of the edges in range
+  static constexpr double expected_share = 0.8;          // of the edges in range in the end: less is not usual
   static constexpr double least_gain = 0.0015;           // in the share of edges in range or in mean quality
 
   const Execution& execution_;

@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_background.h>
 #include <CGAL/Surface_mesh_adaptation/Reference_surface.h>
+#include <CGAL/Surface_mesh_adaptation/expected_size.h>
 #include <CGAL/Surface_mesh_adaptation/metric.h>
 #include <CGAL/Surface_mesh_adaptation/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
@@ -118,6 +119,7 @@ public:
   Buffer<Location> locations;
   Buffer<Index> origin;         ///< vertex of the input that a vertex was, or `no_index`
   Buffer<std::uint8_t> active;  ///< a bit for each kernel that has to look at the vertex
+  std::size_t max_number_of_vertices = largest_number_of_vertices(std::size_t(-1)); ///< beyond which it is not refined
 
   /// `tolerance` may be null, and must live as long as the surface.
   template <class Execution>

@@ -176,7 +176,7 @@ private:
   }
 
   /// Folds are noise rather than shapes, and their normals mean nothing: that of the face behind the longest edge, on
-  /// which a sliver lies, takes their place.
+  /// which a sliver lies, takes their place. Boundaries and constrained edges stay what they are.
   template <class Execution>
   void unmark_folds(const Execution& execution)
   {
@@ -188,7 +188,8 @@ private:
       const Vector_3 n = normal(Mesh_view::face(mesh_.twin[longest]));
       set_mark(longest, none);
       for (const Index h : {Mesh_view::next(longest), Mesh_view::previous(longest)})
-        set_mark(h, is_turned(n, normal(Mesh_view::face(mesh_.twin[h])), cosine_of_ridge_) ? ridge : none);
+        if (is_feature_[h] != kept)
+          set_mark(h, is_turned(n, normal(Mesh_view::face(mesh_.twin[h])), cosine_of_ridge_) ? ridge : none);
     }
   }
 
@@ -264,6 +265,7 @@ private:
 
   double squared_length(Index h) const { return (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm(); }
 
+  /// \pre `h` is not marked as `kept`, and thus not on the boundary
   void set_mark(Index h, Mark mark) { is_feature_[h] = is_feature_[mesh_.twin[h]] = mark; }
 
   /// Calls `f(w, mark)` for the neighbours `w` of `v` along feature edges.

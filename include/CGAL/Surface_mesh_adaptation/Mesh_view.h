@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -25,6 +26,9 @@ namespace Surface_mesh_adaptation {
 
 using Index = std::uint32_t;
 constexpr Index no_index = ~Index(0);
+
+/// Most faces that can be numbered: their halfedges, three for each, by 31 bits.
+constexpr std::size_t max_number_of_faces = std::numeric_limits<std::int32_t>::max() / 3;
 
 /// Mark of a halfedge that lies on no feature curve.
 constexpr Index no_curve = ~Index(0);

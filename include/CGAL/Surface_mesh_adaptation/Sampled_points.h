@@ -32,6 +32,7 @@ public:
     points_.resize(places * mesh_.number_of_faces());
     weights_.resize(mesh_.number_of_faces());
     for_each_index(execution, mesh_.number_of_faces(), [&](std::size_t f) {
+      if (is_stopped(execution)) return;
       const Triangle_points p = corners(Index(f));
       for (std::size_t i = 0; i < places; ++i) locations_[places * f + i] = start(Index(f), i, place(p, i));
     }, heavy_chunk_length);
@@ -44,6 +45,7 @@ public:
   void sample(const Execution& execution)
   {
     for_each_index(execution, mesh_.number_of_faces(), [&](std::size_t f) {
+      if (is_stopped(execution)) return;
       const Triangle_points p = corners(Index(f));
       for (std::size_t i = 0; i < places; ++i) {
         Location& l = locations_[places * f + i];

@@ -7,6 +7,8 @@
 #include <CGAL/Surface_mesh_adaptation/Adaptation_visitor.h>
 #include <CGAL/Surface_mesh_adaptation/internal/in_place.h>
 
+#include <cmath>
+#include <cstddef>
 #include <functional>
 #include <type_traits>
 #include <utility>
@@ -26,6 +28,16 @@ double shape_weight_of_fit(const NamedParameters& np)
   return weight;
 }
 
+/// Says whether the number of vertices that `field` asks for was missed by more than a tenth.
+template <class MetricField>
+void warn_of_missed_number(const MetricField& field, Adaptation_report& report)
+{
+  constexpr double largest_miss = 0.1;
+  const double asked = double(number_of_vertices(field, 0)), reached = double(report.final.vertices);
+  if (report.stopped || asked == 0 || std::abs(reached - asked) <= largest_miss * asked) return;
+  report.warnings.push_back("the mesh has " + number(reached) + " vertices where " + number(asked) + " were asked for");
+}
+
 /// `adapt_surface_mesh` with a policy that is known at run time only: compiled once for all policies.
 template <class TriangleMesh, class MetricField, class NamedParameters>
 Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, const MetricField& field,
@@ -36,11 +48,14 @@ Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, cons
   Adaptation_visitor nothing;
   auto visitor_parameter = choose(np, CGAL::internal_np::visitor, std::ref(nothing));
   auto& visitor = unwrap(visitor_parameter);
-  return adapt_in_place(execution, mesh, field, np, [&](const auto& policy, auto& surface) {
+  const auto interruptible = execution.interruptible([&] { return visitor.go_on(); });
+  Adaptation_report report = adapt_in_place(interruptible, mesh, field, np, [&](const auto& policy, auto& surface) {
     return Adaptation_driver(policy, surface, visitor)
       .run(rounds, surface.background().number_of_vertices(),
            choose(np, internal_np::fit_to_surface, std::false_type()), shape_weight);
   });
+  warn_of_missed_number(field, report);
+  return report;
 }
 
 } // namespace internal
@@ -146,6 +161,12 @@ step at the end: if anything throws, it is as it was.
                           sees the rounds again. Takes several times the time.}
     \cgalParamType{`double`, a length, positive}
     \cgalParamDefault{infinity, that is none}
+  \cgalParamNEnd
+  \cgalParamNBegin{maximum_number_of_vertices}
+    \cgalParamDescription{a metric that asks for more vertices is refused before anything is split, and refinement stops
+                          before there are more}
+    \cgalParamType{`std::size_t`}
+    \cgalParamDefault{what the indices and the memory of the machine can hold}
   \cgalParamNEnd
   \cgalParamNBegin{visitor}
     \cgalParamDescription{follows the run and may stop it}

@@ -69,6 +69,7 @@ std::vector<Index> sweep_blocks(const Execution& execution, std::size_t number_o
   std::vector<Sweep_counts> partial(number_of_chunks(number_of_vertices, block_length));
   std::vector<Index> deferred = gather<Index>(execution, number_of_vertices, block_length,
                                               [&](std::size_t begin, std::size_t end, std::vector<Index>& list) {
+    if (is_stopped(execution)) return;
     const Block block{Index(begin), Index(end)};
     Sweep_counts local; // of this task: counters in shared lines would cost more than the work
     for (std::size_t v = begin; v < end; ++v) visit(Index(v), block, local, list);
@@ -156,6 +157,7 @@ std::vector<Index> sweep_colors(const Execution& execution, const Border_of_bloc
   std::vector<std::vector<Index>> lists(border.number_of_blocks());
   for (const std::vector<std::uint32_t>& blocks : border.blocks_by_color())
     for_each_index(execution, blocks.size(), [&](std::size_t i) {
+      if (is_stopped(execution)) return;
       const std::size_t b = blocks[i];
       Sweep_counts local;
       for (std::size_t k = border.begin(b); k < border.end(b); ++k) visit(k, b, local, lists[b]);

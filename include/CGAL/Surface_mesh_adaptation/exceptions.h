@@ -13,6 +13,18 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+namespace internal {
+
+/// A number as it stands in messages, to six digits.
+inline std::string number(double x)
+{
+  std::ostringstream out;
+  out << x;
+  return out.str();
+}
+
+} // namespace internal
+
 /// Base of every exception of the package.
 class Adaptation_error : public std::runtime_error
 {
@@ -112,12 +124,37 @@ public:
   using Adaptation_error::Adaptation_error;
 };
 
-/// The adaptation would create more elements than the indices can number (2^31 halfedges).
+/// The metric asks for more vertices than can be numbered, or than the memory or a limit of the user allow: check its
+/// units.
 class Mesh_too_large_error : public Adaptation_error
 {
 public:
-  Mesh_too_large_error()
-    : Adaptation_error("the metric asks for more elements than can be numbered: check its units") {}
+  struct Estimate
+  {
+    double vertices = 0;      ///< that the metric asks for
+    std::size_t largest = 0;  ///< number of vertices that is possible
+    double size = 0;          ///< the smallest that is asked for at a vertex
+    double diagonal = 0;      ///< of the bounding box
+  };
+
+  explicit Mesh_too_large_error(const Estimate& e)
+    : Adaptation_error("the metric asks for about " + internal::number(e.vertices) + " vertices, and " +
+                       std::to_string(e.largest) + " are possible: its smallest size is " + internal::number(e.size) +
+                       ", and the diagonal of the mesh " + internal::number(e.diagonal))
+    , estimate_(e)
+  {}
+
+  /// The mesh has more faces itself than can be numbered.
+  Mesh_too_large_error(std::size_t faces, std::size_t largest)
+    : Adaptation_error("the mesh has " + std::to_string(faces) + " faces, and no more than " + std::to_string(largest) +
+                       " can be numbered")
+    , estimate_{double(faces) / 2, largest / 2, 0, 0}
+  {}
+
+  const Estimate& estimate() const { return estimate_; }
+
+private:
+  Estimate estimate_;
 };
 
 /// The distance between the input and the output could not be kept below the tolerance asked for.
@@ -125,8 +162,8 @@ class Tolerance_error : public Adaptation_error
 {
 public:
   Tolerance_error(double distance, double tolerance)
-    : Adaptation_error("the adapted mesh may be as far as " + number(distance) +
-                       " from the input, above the tolerance of " + number(tolerance))
+    : Adaptation_error("the adapted mesh may be as far as " + internal::number(distance) +
+                       " from the input, above the tolerance of " + internal::number(tolerance))
     , distance_(distance), tolerance_(tolerance)
   {}
 
@@ -134,13 +171,6 @@ public:
   double tolerance() const { return tolerance_; }
 
 private:
-  static std::string number(double x)
-  {
-    std::ostringstream out;
-    out << x;
-    return out.str();
-  }
-
   double distance_, tolerance_;
 };
 

@@ -154,6 +154,13 @@ template <class T> constexpr bool is_execution<T, std::void_t<decltype(std::decl
 
 } // namespace internal
 
+/// Whether a run is to stop and what its sweeps have not begun may be left out: never, for a policy of a user.
+template <class Execution>
+bool is_stopped(const Execution&)
+{
+  return false;
+}
+
 /// Length of a chunk of light work (tens of nanoseconds an index): long enough to hide the cost of a task, short enough
 /// to occupy many threads.
 constexpr std::size_t default_chunk_length = 512;

@@ -121,7 +121,7 @@ void read_connectivity(const Execution& execution, const FaceGraph& graph, const
                        Imported_mesh<FaceGraph>& result)
 {
   const std::size_t nv = number.number_of_vertices(), nf = number.number_of_faces();
-  if (nf > std::size_t(std::numeric_limits<std::int32_t>::max() / 3)) throw Mesh_too_large_error();
+  if (nf > max_number_of_faces) throw Mesh_too_large_error(nf, max_number_of_faces);
   const std::size_t first_bad = reduce(execution, nf, nf, [&](std::size_t f) {
     const auto h = halfedge(number.face(f), graph);
     return next(next(next(h, graph), graph), graph) == h && next(h, graph) != h ? nf : f;

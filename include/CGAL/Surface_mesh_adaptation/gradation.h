@@ -79,6 +79,8 @@ public:
     const std::size_t n = tensors_.size();
     std::vector<Metric_tensor_3> raised(n);
     std::vector<std::uint8_t> is_raised(n);
+    largest_ = reduce(execution, n, 0.0, [&](std::size_t v) { return largest_eigenvalue(tensors_[v]); },
+                      [](double a, double b) { return (std::max)(a, b); });
     std::size_t changes = 0;
     do {
       changes = count_if(execution, n, [&](std::size_t v) {
@@ -110,7 +112,18 @@ private:
     std::sort(candidates.begin(), candidates.end());
     Metric_tensor_3 result = tensors_[v];
     for (const Ranked_metric& c : candidates) result = intersection(result, c.metric);
-    return result;
+    return candidates.empty() ? result : bounded(result);
+  }
+
+  static double largest_eigenvalue(const Metric_tensor_3& m) { return eigen_decomposition(m).values[2]; }
+
+  /// `m` with sizes that are not below the smallest one that was asked for. Where tensors meet in other directions each
+  /// time, as on needles whose normals say little, their intersections would become smaller without end.
+  Metric_tensor_3 bounded(const Metric_tensor_3& m) const
+  {
+    if (m.matrix().trace() <= largest_) return m;
+    const Eigen_decomposition_3 e = eigen_decomposition(m);
+    return e.values[2] <= largest_ ? m : metric_tensor(e.values.cwiseMin(largest_), e.vectors);
   }
 
   /// Adds the tensor of the other end of an edge, carried to this one and with its sizes grown by its length of the
@@ -134,6 +147,7 @@ private:
   const std::vector<Vector_3>& points_;
   const Corner_normals& normals_;
   double slope_;
+  double largest_ = 0; // of the eigenvalues at the start
   std::vector<Metric_tensor_3>& tensors_;
   std::vector<std::uint8_t> changed_;
 };

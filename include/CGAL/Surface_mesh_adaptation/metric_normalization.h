@@ -192,11 +192,32 @@ void grade(const Execution& execution, const Mesh_view& mesh, const std::vector<
   apply_gradation(execution, mesh, points, ratio, sizes);
 }
 
+/// The smallest sizes that the tensors ask for in any direction, graded.
+template <class Execution>
+std::vector<double> isotropic_sizes(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
+                                    double ratio, const std::vector<Metric_tensor_3>& tensors)
+{
+  std::vector<double> sizes(tensors.size());
+  for_each_index(execution, sizes.size(), [&](std::size_t v) {
+    sizes[v] = 1 / std::sqrt(eigen_decomposition(tensors[v]).values[2]);
+  });
+  apply_gradation(execution, mesh, points, ratio, sizes);
+  return sizes;
+}
+
+/// Tensors that meet in ever other directions, as on needles, may come out of the gradation smaller in all of them than
+/// the isotropic sizes that give each what it asks for. These take their place then.
 template <class Execution>
 void grade(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
            const Corner_normals& normals, double ratio, std::vector<Metric_tensor_3>& tensors)
 {
+  if (!(ratio > 1)) return;
+  const std::vector<double> sizes = isotropic_sizes(execution, mesh, points, ratio, tensors);
   apply_gradation(execution, mesh, points, normals, ratio, tensors);
+  if (complexity(execution, mesh, points, normals, tensors).area <
+      complexity(execution, mesh, points, normals, sizes).area)
+    return;
+  for_each_index(execution, sizes.size(), [&](std::size_t v) { tensors[v] = Metric_tensor_3::isotropic(sizes[v]); });
 }
 
 template <class Execution>
@@ -225,6 +246,19 @@ std::pair<double, double> range_of_traces(const Execution& execution, const std:
   }, [](const Range& a, const Range& b) {
     return Range((std::min)(a.first, b.first), (std::max)(a.second, b.second));
   });
+}
+
+/// The metric with sizes where nothing was asked for: the largest that are asked for elsewhere, or everywhere the same.
+template <class Execution>
+Scalable_metric without_zeros(const Execution& execution, const Scalable_metric& metric, double least_trace)
+{
+  Scalable_metric result = metric;
+  const double eigenvalue = std::isfinite(least_trace) ? least_trace / 3 : 1;
+  for_each_index(execution, result.tensors.size(), [&](std::size_t v) {
+    Metric_tensor_3& m = result.tensors[v];
+    if (!(m.matrix().trace() > 0)) m = Metric_tensor_3(eigenvalue, 0, eigenvalue, 0, 0, eigenvalue);
+  });
+  return result;
 }
 
 /// Finds `x` in `[low, high]` with `f(x) = 0` to within `tolerance`, or the end that is nearer to it, for `f` that does
@@ -265,20 +299,21 @@ std::vector<Value> metric_at_scale(const Execution& execution, const Mesh_view& 
 }
 
 /// The metric of the scale at which a mesh with unit edges has `number_of_vertices`, to within one percent, if the
-/// bounds allow it: else as near as they do. The bounds and the gradation hold in the result, for the scale is solved
+/// bounds allow it: else as near as they do. Where a tensor is zero the size is the largest one elsewhere. The bounds and the gradation hold in the result, for the scale is solved
 /// for with both: first with the bounds alone, whose number of vertices is cheap to find, then with the gradation.
 /// (Where tensors with different directions meet, the gradation may ask for sizes a little below `hmin`.)
 /// \complexity O(n) for each of about five to ten evaluations, and three to four gradations
 template <class Value, class Execution>
 std::vector<Value> normalize_to_vertex_count(const Execution& execution, const Mesh_view& mesh,
                                              const std::vector<Vector_3>& points, const Corner_normals& normals,
-                                             const Scalable_metric& metric, double number_of_vertices,
+                                             const Scalable_metric& asked, double number_of_vertices,
                                              double packing = default_packing)
 {
   if (!(number_of_vertices >= 4) || !std::isfinite(number_of_vertices))
     throw Invalid_parameter_error("the number of vertices asked for must be at least 4");
+  const Scalable_metric metric =
+    internal::without_zeros(execution, asked, internal::range_of_traces(execution, asked.tensors).first);
   const auto [least, largest] = internal::range_of_traces(execution, metric.tensors);
-  if (!(largest > 0)) return metric_at_scale<Value>(execution, mesh, points, normals, metric, 1);
   std::vector<Value> values;
   const auto excess = [&] {
     const Metric_complexity c = complexity(execution, mesh, points, normals, values);

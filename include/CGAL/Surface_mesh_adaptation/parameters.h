@@ -26,6 +26,7 @@ enum vertex_attribute_maps_t { vertex_attribute_maps };
 enum maximum_normal_deviation_t { maximum_normal_deviation };
 enum maximum_distance_t { maximum_distance };
 enum tolerance_t { tolerance };
+enum maximum_number_of_vertices_t { maximum_number_of_vertices };
 
 } // namespace internal_np
 

@@ -129,8 +129,12 @@ public:
   std::size_t size() const { return triangles_.size(); }
   const Triangle_points& operator[](std::size_t i) const { return triangles_[i]; }
 
-  /// The diagonal of the bounding box.
-  double extent() const { return (levels_.back()[0].high - levels_.back()[0].low).norm(); }
+  /// About the distance of the farthest point from the origin, by which coordinates are rounded.
+  double magnitude() const
+  {
+    const Box& box = levels_.back()[0];
+    return (std::max)(box.low.norm(), box.high.norm());
+  }
 
   struct Nearest
   {
@@ -371,14 +375,29 @@ bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit
   return true;
 }
 
+/// How close upper bounds of distances are to these.
+struct Distance_precision
+{
+  double absolute; ///< no bound is by more than this too large
+  double limit;    ///< but those of distances beyond this, by a tenth
+
+  Distance_precision(double absolute_, double limit_ = std::numeric_limits<double>::infinity())
+    : absolute(absolute_), limit(limit_)
+  {}
+
+  double of(double distance) const { return distance > limit ? (std::max)(absolute, distance / 10) : absolute; }
+};
+
 /// An upper bound of the distance from the points of `t` to the surface, at most `enough`, or else by no more than
 /// `precision` too large, unless that takes more than `max_pieces` pieces of `t`. `guess` is a triangle of the surface
 /// near `t`.
-inline double distance_bound(const Triangle_tree& tree, const Triangle_points& t, double enough, double precision,
-                             std::size_t guess = 0, std::size_t max_pieces = 1 << 16)
+inline double distance_bound(const Triangle_tree& tree, const Triangle_points& t, double enough,
+                             const Distance_precision& precision, std::size_t guess = 0,
+                             std::size_t max_pieces = 1 << 16)
 {
   std::size_t looked_at = 0;
   double upper = 0, lower = 0;
+  const auto allowed = [&] { return (std::max)(enough, lower + precision.of(lower)); };
   Ring<internal::Triangle_piece> pieces{{{t.begin(), t.end()}, guess}};
   while (!pieces.empty()) {
     const internal::Triangle_piece piece = pieces.back();
@@ -386,13 +405,13 @@ inline double distance_bound(const Triangle_tree& tree, const Triangle_points& t
     const Vector_3 center = piece.center();
     std::size_t near = tree.towards(center, piece.guess);
     double bound = std::sqrt(piece.largest_squared_distance(tree[near]));
-    if (bound > (std::max)(enough, lower + precision)) {
+    if (bound > allowed()) {
       const auto nearest = tree.nearest(center, near);
       near = nearest.triangle;
       lower = (std::max)(lower, std::sqrt(nearest.squared_distance));
       bound = std::sqrt(piece.largest_squared_distance(tree[near]));
     }
-    if (bound <= (std::max)(enough, lower + precision) || ++looked_at >= max_pieces) {
+    if (bound <= allowed() || ++looked_at >= max_pieces) {
       upper = (std::max)(upper, bound);
       continue;
     }
@@ -408,10 +427,10 @@ inline double distance_bound(const Triangle_tree& tree, const Triangle_points& t
 /// other. A precision that is lost in rounding is replaced by one that is not.
 template <class Execution>
 double one_sided_distance_bound(const Execution& execution, const Triangle_tree& from, const Triangle_tree& to,
-                                double precision)
+                                Distance_precision precision)
 {
   constexpr double rounding = 1e-13;
-  precision = (std::max)(precision, rounding * to.extent());
+  precision.absolute = (std::max)(precision.absolute, rounding * (std::max)(to.magnitude(), from.magnitude()));
   const auto larger = [](double a, double b) { return (std::max)(a, b); };
   std::vector<std::size_t> guess(from.size());
   const double lower = std::sqrt(reduce(execution, from.size(), 0.0, [&](std::size_t i) {
@@ -422,14 +441,15 @@ double one_sided_distance_bound(const Execution& execution, const Triangle_tree&
     return nearest.squared_distance;
   }, larger));
   return reduce(execution, from.size(), 0.0, [&](std::size_t i) {
-    return distance_bound(to, from[i], lower + precision, precision, guess[i]);
+    return distance_bound(to, from[i], lower + precision.of(lower), precision, guess[i]);
   }, larger);
 }
 
 /// An upper bound of the Hausdorff distance between two surfaces, by no more than `precision` too large. O(n log n) for
 /// surfaces that are near each other, and more where the distance is nearly the largest over large parts.
 template <class Execution>
-double hausdorff_distance_bound(const Execution& execution, const Triangle_tree& a, const Triangle_tree& b, double precision)
+double hausdorff_distance_bound(const Execution& execution, const Triangle_tree& a, const Triangle_tree& b,
+                                const Distance_precision& precision)
 {
   return (std::max)(one_sided_distance_bound(execution, a, b, precision),
                     one_sided_distance_bound(execution, b, a, precision));

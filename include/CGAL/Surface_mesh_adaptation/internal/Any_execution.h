@@ -3,8 +3,12 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_ANY_EXECUTION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_ANY_EXECUTION_H
 
+#include <CGAL/Surface_mesh_adaptation/internal/Interruption.h>
+
 #include <cstddef>
 #include <functional>
+#include <memory>
+#include <utility>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -39,18 +43,39 @@ public:
     , run_([execution](std::size_t n, const Task_reference& task) { execution.run(n, task); })
   {}
 
+  /// The same, but `go_on` is asked now and then, by the thread that calls this, whether to go on.
+  Any_execution interruptible(std::function<bool()> go_on) const
+  {
+    Any_execution result = *this;
+    result.interruption_ = std::make_shared<Interruption>(std::move(go_on));
+    return result;
+  }
+
   int concurrency() const { return concurrency_; }
+  Interruption* interruption() const { return interruption_.get(); }
 
   template <class Task>
   void run(std::size_t number_of_tasks, const Task& task) const
   {
-    run_(number_of_tasks, Task_reference(task));
+    if (!interruption_) return run_(number_of_tasks, Task_reference(task));
+    const auto interruptible_task = [&](std::size_t i) {
+      interruption_->poll();
+      task(i);
+    };
+    run_(number_of_tasks, Task_reference(interruptible_task));
   }
 
 private:
   int concurrency_;
   std::function<void(std::size_t, const Task_reference&)> run_;
+  std::shared_ptr<Interruption> interruption_; // shared by copies
 };
+
+/// Whether the run is to stop: what kernels have not begun is left out.
+inline bool is_stopped(const Any_execution& execution)
+{
+  return execution.interruption() != nullptr && execution.interruption()->is_requested();
+}
 
 } // namespace internal
 } // namespace Surface_mesh_adaptation

@@ -131,13 +131,14 @@ std::optional<Tolerance> tolerance_of(const Any_execution& execution, const Refe
   return Tolerance{distance, share_of_operations * distance, Triangle_tree(execution, reference.mesh, reference.points)};
 }
 
-/// An upper bound of the distance between the input and the adapted mesh.
+/// An upper bound of the distance between the input and the adapted mesh; a coarse one where that leaves the tolerance.
 template <class Surface>
 double certified_distance(const Any_execution& execution, const Tolerance& tolerance, const Surface& surface)
 {
   constexpr double precision = 0.02; // of the tolerance
   const Triangle_tree output(execution, surface.mesh, surface.points);
-  return hausdorff_distance_bound(execution, tolerance.input, output, precision * tolerance.distance);
+  return hausdorff_distance_bound(execution, tolerance.input, output,
+                                  {precision * tolerance.distance, tolerance.distance});
 }
 
 /// Calls `adapt()`, which returns a report with a certified distance, with ever stricter operations until that distance
@@ -156,9 +157,10 @@ Adaptation_report adapt_within(Tolerance& tolerance, const Adapt& adapt)
   }
 }
 
-/// Runs `kernels(execution, surface)`, which returns a report, on `graph`.
+/// `adapt_in_place` where it is not interrupted before the kernels begin.
+/// \throws Interrupted
 template <class FaceGraph, class MetricField, class NamedParameters, class Kernels>
-Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& graph, const MetricField& field,
+Adaptation_report adapt_uninterrupted(const Any_execution& execution, FaceGraph& graph, const MetricField& field,
                                  const NamedParameters& np, const Kernels& kernels)
 {
   using Reconstruction = std::decay_t<decltype(
@@ -182,13 +184,22 @@ Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& grap
     std::optional<Surface> adapted;
     const auto run = [&] {
       adapted.emplace(execution, reference, background, asked);
-      Adaptation_report result = kernels(execution, *adapted);
+      adapted->max_number_of_vertices =
+        largest_number_of_vertices(choose(np, internal_np::maximum_number_of_vertices, std::size_t(-1)));
+      check_expected_size(execution, *adapted, adapted->max_number_of_vertices);
+      Adaptation_report result = [&] {
+        const Effect_of_interruption leave_out(execution.interruption(), Interruption::Effect::leave_out);
+        return kernels(execution, *adapted);
+      }();
       if (!asked) return result;
+      const Effect_of_interruption once(execution.interruption(), result.stopped ? Interruption::Effect::none
+                                                                                 : Interruption::Effect::give_up);
       result.tolerance = asked->distance;
       result.certified_distance = certified_distance(execution, *asked, *adapted);
       return result;
     };
     report = asked ? adapt_within(*tolerance, run) : run();
+    const Effect_of_interruption write_all(execution.interruption(), Interruption::Effect::none);
     Surface& surface = *adapted;
     auto attributes = attribute_transfer(graph, imported, choose(np, internal_np::vertex_attribute_maps, std::tuple<>()));
     const Carried_jets<NamedParameters> jets(execution, reference, surface.locations.size(), [&](std::size_t v) {
@@ -203,9 +214,25 @@ Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& grap
     surface.release(execution);
   };
   with_input_numbers(graph, imported, [&] { with_background(execution, field, imported, reference, adapt); });
+  const Effect_of_interruption count_all(execution.interruption(), Interruption::Effect::none);
   report.fallback_patches = reference.number_of_fallbacks(execution);
   report.threads = execution.concurrency();
   return report;
+}
+
+/// Runs `kernels(execution, surface)`, which returns a report, on `graph`.
+template <class FaceGraph, class MetricField, class NamedParameters, class Kernels>
+Adaptation_report adapt_in_place(const Any_execution& execution, FaceGraph& graph, const MetricField& field,
+                                 const NamedParameters& np, const Kernels& kernels)
+{
+  try {
+    return adapt_uninterrupted(execution, graph, field, np, kernels);
+  } catch (const Interrupted&) {
+    Adaptation_report report;
+    report.stopped = true;
+    report.threads = execution.concurrency();
+    return report;
+  }
 }
 
 } // namespace internal

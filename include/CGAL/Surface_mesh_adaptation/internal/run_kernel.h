@@ -26,12 +26,13 @@ std::size_t run_kernel(const Execution& execution, TriangleMesh& mesh, const Met
   auto visitor_parameter = choose(np, CGAL::internal_np::visitor, std::ref(nothing));
   auto& visitor = unwrap(visitor_parameter);
   Sweep_counts counts;
-  adapt_in_place(Any_execution(execution), mesh, field, np, [&](const auto& policy, auto& surface) {
+  const auto interruptible = Any_execution(execution).interruptible([&] { return visitor.go_on(); });
+  adapt_in_place(interruptible, mesh, field, np, [&](const auto& policy, auto& surface) {
     auto kernel = make(policy, surface);
     Adaptation_report report;
     counts = Sweep_counts(); // with a tolerance there may be several attempts: the last one counts
     for (std::size_t i = 0; i < max_sweeps && !report.stopped && sweep(kernel, counts) > 0; ++i)
-      report.stopped = !visitor.go_on();
+      report.stopped = is_stopped(policy) || !visitor.go_on();
     Refinement(policy, surface).compact();
     return report;
   });

@@ -28,7 +28,7 @@ class Approximation
 public:
   Approximation(const Execution& execution, Surface& surface, const Simplification_thresholds& thresholds,
                 const Deviation_limits& limits)
-    : represented_(execution, surface, limits), contraction_(execution, surface, thresholds, represented_)
+    : execution_(execution), represented_(execution, surface, limits), contraction_(execution, surface, thresholds, represented_)
     , fitting_(execution, surface, represented_, Fitting_thresholds{attraction}), left_(surface.mesh.number_of_vertices())
   {}
 
@@ -36,7 +36,7 @@ public:
   /// vertices removed; 0: that was all, and the vertices are fitted for the last time.
   std::size_t sweep(Sweep_counts& counts)
   {
-    for (;;) {
+    while (!is_stopped(execution_)) {
       if (const std::size_t removed = contraction_.sweep(counts)) {
         since_fit_ += removed;
         left_ -= removed;
@@ -67,6 +67,7 @@ private:
   static constexpr int last_steps = 8;
   static constexpr double attraction = 0.05;       // of a vertex to where it is when it is fitted, of that to the points
 
+  const Execution& execution_;
   Represented_points<Surface> represented_;
   Contraction<Surface, Execution> contraction_;
   Fitting<Surface, Execution, Represented_points<Surface>> fitting_;

@@ -58,7 +58,7 @@ public:
     max_distance_ = share_of_largest * target_.largest_distance(execution_);
     places_ = surface_.points;
     before_ = surface_.points;
-    for (int i = 0; i < steps; ++i) {
+    for (int i = 0; i < steps && !is_stopped(execution_); ++i) {
       if (i > 0) renew();
       step();
     }
@@ -71,12 +71,13 @@ private:
   {
     equations_.resize(mesh_.number_of_halfedges());
     for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
-      if (!mesh_.is_removed_face(Index(f))) assemble(Index(f));
+      if (!mesh_.is_removed_face(Index(f)) && !is_stopped(execution_)) assemble(Index(f));
     }, heavy_chunk_length);
     std::swap(last_, before_);
     before_ = surface_.points;
     for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
-      if (!mesh_.is_removed_vertex(Index(v)) && surface_.vertex_class(Index(v)) != Vertex_class::corner) step(Index(v));
+      if (mesh_.is_removed_vertex(Index(v)) || surface_.vertex_class(Index(v)) == Vertex_class::corner) return;
+      if (!is_stopped(execution_)) step(Index(v));
     }, heavy_chunk_length);
     take_back(before_, [&](Index f) { return is_bad(f, before_); });
   }

@@ -15,8 +15,8 @@
 #include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/block_sweep.h>
-#include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/expected_size.h>
 #include <CGAL/Surface_mesh_adaptation/fill_holes.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
@@ -26,7 +26,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
-#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -69,9 +69,10 @@ public:
       const std::size_t marked = count_marked();
       if (marked <= negligible) return 0;
       const Restructuring plan(execution_, mesh_, codes_);
-      if (plan.number_of_faces() > max_number_of_faces) throw Mesh_too_large_error();
+      if ((is_at_limit_ = is_beyond_limit(plan))) return 0;
       if (expected_vertices_ == 0) expected_vertices_ = expected_number_of_vertices();
       place_vertices(plan);
+      if (is_stopped(execution_)) return 0; // some were left out
       if (take_back_marks_of_bad_faces(plan)) continue;
       choose_diagonals(plan);
       commit(plan);
@@ -80,6 +81,10 @@ public:
       return marked;
     }
   }
+
+  /// Whether the last sweep left all as it was, since the mesh would have had far more vertices than the metric asks for, or
+  /// than are possible.
+  bool is_at_limit() const { return is_at_limit_; }
 
   /// Closes the holes of removed elements, if there are any.
   void compact()
@@ -107,24 +112,25 @@ public:
 
 private:
   static constexpr double min_turn = 0.5;  // cosine between a face and its children
+  static constexpr double in_plane = 0.98; // the same, of children that are as upright as the face
   static constexpr double max_length_to_keep = 3; // of an edge that fits better than its parts: not worth a look beyond
   static constexpr double max_half = 0.8;  // of an edge: the middle of a bulging arc lies well within
   static constexpr double max_share_of_holes = 0.01; // that are filled in series
   static constexpr double expected_excess = 1.2;   // vertices beyond those of a mesh of equilateral unit triangles
   static constexpr std::size_t max_growth = 100;   // that is prepared for: metrics may ask for anything
-  static constexpr Index max_number_of_faces = std::numeric_limits<std::int32_t>::max() / 3;
 
-  /// The area in the metric over that of a unit triangle: two faces for each vertex.
+  /// Vertices to make room for.
   std::size_t expected_number_of_vertices() const
   {
-    const double sum = reduce(execution_, mesh_.number_of_faces(), 0.0, [&](std::size_t f) {
-      if (mesh_.is_removed_face(Index(f))) return 0.0;
-      const Index a = mesh_.corner[3 * f], b = mesh_.corner[3 * f + 1], c = mesh_.corner[3 * f + 2];
-      const Vector_3 ab = surface_.points[b] - surface_.points[a], ac = surface_.points[c] - surface_.points[a];
-      return face_mass(surface_.metrics[a], surface_.metrics[b], surface_.metrics[c], ab, ac, ab.cross(ac).norm()) / 3;
-    }, std::plus<double>());
     const double limit = double(max_growth * mesh_.number_of_vertices());
-    return std::size_t((std::min)(limit, expected_excess * sum / std::sqrt(3.0)));
+    return std::size_t((std::min)(limit, expected_excess * vertices_of_area(execution_, surface_)));
+  }
+
+  bool is_beyond_limit(const Restructuring& plan)
+  {
+    if (!limit_) limit_.emplace(execution_, surface_);
+    return plan.number_of_faces() > max_number_of_faces ||
+           limit_->is_exceeded(execution_, surface_, plan.number_of_vertices());
   }
 
   template <class F>
@@ -206,7 +212,7 @@ private:
         if (mesh_.outgoing[v] == h)
           write(plan.vertex(v), surface_.vertex(v), surface_.origin[v],
                 is_at_split(v) ? all_kernels : surface_.active[v]);
-        if (plan.is_split(h) && mesh_.is_edge_owner(h))
+        if (plan.is_split(h) && mesh_.is_edge_owner(h) && !is_stopped(execution_))
           write(plan.midpoint(h), surface_.middle(h), no_index, all_kernels);
       }
     }, heavy_chunk_length);
@@ -302,6 +308,7 @@ private:
     for (std::size_t i = 0; i < 3; ++i) v[i] = plan.vertex_of_label(f, labels[i]);
     const Vector_3 e1 = points_[v[1]] - points_[v[0]], e2 = points_[v[2]] - points_[v[0]], normal = e1.cross(e2);
     const double length = normal.norm();
+    if (normal.dot(parent) > in_plane * length) return true; // at sharp edges that are no features normals say little
     const Corner_products products(normal, length, {&normals_[v[0]], &normals_[v[1]], &normals_[v[2]]});
     if (normal.dot(parent) > min_turn * length && products.least >= limit * length) return true;
     return is_anisotropic<Metric> && products.is_smooth && length > 0 && is_thin(e1, e2, normal) &&
@@ -348,6 +355,8 @@ private:
   Mesh_view& mesh_;
   Refinement_thresholds thresholds_;
   std::size_t expected_vertices_ = 0; // for all sweeps
+  std::optional<Limit_of_refinement> limit_; // the same
+  bool is_at_limit_ = false;
   Buffer<std::uint8_t> codes_, chosen_, bad_;
   // the other half of a double buffer: swapped with the surface by `commit`
   Mesh_view spare_;

@@ -92,6 +92,7 @@ private:
   {
     return gather<Operation>(execution_, mesh_.number_of_vertices(), block_length,
                              [&](std::size_t begin, std::size_t end, std::vector<Operation>& list) {
+      if (is_stopped(execution_)) return;
       for (std::size_t v = begin; v < end; ++v) {
         if (mesh_.is_removed_vertex(Index(v)) || !is_active(surface_, Index(v), Activity::regularize)) continue;
         const Operation operation = best_operation(Index(v));

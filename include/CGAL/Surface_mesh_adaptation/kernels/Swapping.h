@@ -151,7 +151,9 @@ private:
     });
     counts.candidates += edges.size();
     gains_.resize(edges.size());
-    for_each_index(execution_, edges.size(), [&](std::size_t i) { gains_[i] = gain(edges[i]); }, heavy_chunk_length);
+    for_each_index(execution_, edges.size(), [&](std::size_t i) {
+      gains_[i] = is_stopped(execution_) ? 0 : gain(edges[i]);
+    }, heavy_chunk_length);
     const auto valid = pack(execution_, edges.size(), [&](std::size_t i) { return gains_[i] > 0; });
     reservations_.resize(execution_, mesh_.number_of_vertices());
     const auto winners = independent_set(

@@ -33,7 +33,8 @@ void sweep_border_by_claims(const Execution& execution, const Mesh_view& mesh, s
     counts.candidates += vertices.size();
     proposals.resize(vertices.size());
     for_each_index(execution, vertices.size(), [&](std::size_t i) {
-      proposals[i] = mesh.is_removed_vertex(vertices[i]) ? Collapse() : propose(vertices[i]);
+      const bool is_left_out = mesh.is_removed_vertex(vertices[i]) || is_stopped(execution);
+      proposals[i] = is_left_out ? Collapse() : propose(vertices[i]);
     }, heavy_chunk_length);
     const auto valid = pack(execution, vertices.size(), [&](std::size_t i) { return proposals[i].h != no_index; });
     const auto winners = independent_set(
