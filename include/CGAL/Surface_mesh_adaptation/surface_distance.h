@@ -264,6 +264,17 @@ struct Triangle_piece
 {
   boost::container::small_vector<Vector_3, 10> corners;
   std::size_t guess;  ///< a triangle of the other surface near it
+  bool is_to_be_halved = false; ///< since the last cut left it about as long as what it was cut from
+
+  Vector_3 longest_edge() const
+  {
+    Vector_3 longest = Vector_3::Zero();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vector_3 e = corners[(i + 1) % corners.size()] - corners[i];
+      if (e.squaredNorm() > longest.squaredNorm()) longest = e;
+    }
+    return longest;
+  }
 
   Vector_3 center() const
   {
@@ -311,24 +322,23 @@ inline std::array<Triangle_piece, 2> cut(const Triangle_piece& piece, const Vect
 template <class Use>
 void halve(const Triangle_piece& piece, const Use& use)
 {
-  const std::size_t n = piece.corners.size();
-  Vector_3 longest = Vector_3::Zero();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vector_3 e = piece.corners[(i + 1) % n] - piece.corners[i];
-    if (e.squaredNorm() > longest.squaredNorm()) longest = e;
-  }
-  for (const Triangle_piece& half : cut(piece, piece.center(), longest))
+  for (Triangle_piece& half : cut(piece, piece.center(), piece.longest_edge())) {
+    half.is_to_be_halved = false;
     if (!half.corners.empty()) use(half);
+  }
 }
 
 /// Calls `use(part)` for the part of `piece` above the triangle `t` and for what is left at its sides; for halves if
 /// that would be the whole piece. Where surfaces are nearly parallel, parts above one triangle need not be cut further.
+/// Slivers cut off next to nothing, so what stays long is halved the next time.
 template <class Use>
 void split(const Triangle_piece& piece, const Triangle_points& t, const Use& use)
 {
+  constexpr double share_of_length = 0.9;
+  if (piece.is_to_be_halved) return halve(piece, use);
   const Vector_3 n = (t[1] - t[0]).cross(t[2] - t[0]);
   Triangle_piece rest = piece;
-  boost::container::static_vector<Triangle_piece, 3> sides;
+  boost::container::static_vector<Triangle_piece, 4> sides;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto parts = cut(rest, t[i], (t[(i + 1) % 3] - t[i]).cross(n));
     if (parts[0].corners.empty()) return halve(piece, use);
@@ -336,8 +346,12 @@ void split(const Triangle_piece& piece, const Triangle_points& t, const Use& use
     if (!parts[1].corners.empty()) sides.push_back(parts[1]);
   }
   if (sides.empty()) return halve(piece, use);
-  for (const Triangle_piece& side : sides) use(side);
-  use(rest);
+  sides.push_back(rest);
+  const double squared_length = share_of_length * share_of_length * piece.longest_edge().squaredNorm();
+  for (Triangle_piece& part : sides) {
+    part.is_to_be_halved = part.longest_edge().squaredNorm() > squared_length;
+    use(part);
+  }
 }
 
 } // namespace internal
