@@ -7,7 +7,11 @@
 #define TEST_SURFACE_MESH_ADAPTATION_DISTANCES_H
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>
+#if __has_include(<CGAL/AABB_traits_3.h>) // since CGAL 6
+#include <CGAL/AABB_traits_3.h>
+#else
 #include <CGAL/AABB_traits.h>
+#endif
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
@@ -25,7 +29,12 @@ namespace distances {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_face_graph_triangle_primitive<Mesh>>>;
+using Primitive = CGAL::AABB_face_graph_triangle_primitive<Mesh>;
+#if __has_include(<CGAL/AABB_traits_3.h>)
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits_3<Kernel, Primitive>>;
+#else
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+#endif
 
 struct Distance
 {

@@ -108,6 +108,7 @@ public:
   using const_iterator = const std::size_t*;
 
   std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
   void resize(std::size_t size) { size_ = size; }
   std::size_t& operator[](std::size_t i) { return corners_[(std::min)(i, std::size_t(3))]; }
   std::size_t operator[](std::size_t i) const { return corners_[(std::min)(i, std::size_t(3))]; }
