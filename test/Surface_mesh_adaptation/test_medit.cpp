@@ -3,6 +3,7 @@
 // MEDIT files: what is read, what is written back, and what is refused, with the line.
 
 #include "checks.h"
+#include "medit_files.h"
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
@@ -18,6 +19,7 @@
 namespace {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
+using medit_files::expect_equal;
 using shapes::Soup;
 using SMA::Medit_mesh;
 using SMA::Medit_solution;
@@ -83,32 +85,8 @@ TEST(Medit_mesh, may_have_comments_any_order_and_other_sections)
 TEST(Medit_mesh, comes_back_to_the_last_bit)
 {
   shapes::Random random(1);
-  Medit_mesh m;
-  for (int i = 0; i < 1000; ++i) {
-    m.points.push_back({std::exp(random.real(-700, 700)), -random.real() / 3, double(i) * 1e300});
-    m.point_references.push_back(int(random.below(1000)) - 500);
-  }
-  for (std::uint32_t i = 0; i + 2 < 1000; ++i) {
-    m.triangles.push_back({i, i + 1, i + 2});
-    m.triangle_references.push_back(int(i));
-    m.edges.push_back({i, i + 1});
-    m.edge_references.push_back(-int(i));
-  }
-  m.ridges = {0, 5, 997};
-  m.required_edges = {3};
-  m.corners = {0, 999};
-  m.required_vertices = {500};
-  const Medit_mesh back = parsed(SMA::print_medit_mesh(m));
-  EXPECT_EQ(back.points, m.points);
-  EXPECT_EQ(back.point_references, m.point_references);
-  EXPECT_EQ(back.triangles, m.triangles);
-  EXPECT_EQ(back.triangle_references, m.triangle_references);
-  EXPECT_EQ(back.edges, m.edges);
-  EXPECT_EQ(back.edge_references, m.edge_references);
-  EXPECT_EQ(back.ridges, m.ridges);
-  EXPECT_EQ(back.required_edges, m.required_edges);
-  EXPECT_EQ(back.corners, m.corners);
-  EXPECT_EQ(back.required_vertices, m.required_vertices);
+  const Medit_mesh m = medit_files::random_mesh(random, 1000);
+  expect_equal(parsed(SMA::print_medit_mesh(m)), m);
 }
 
 TEST(Medit_mesh, that_is_malformed_is_refused_with_its_line)
@@ -190,23 +168,22 @@ TEST(Medit_mesh, that_does_not_exist_is_refused)
 TEST(Medit_solution, comes_back_to_the_last_bit)
 {
   shapes::Random random(3);
-  for (const int components : {1, 6}) {
-    Medit_solution s;
-    s.components = components;
-    for (int i = 0; i < 600; ++i) s.values.push_back(std::exp(random.real(-700, 700)));
-    const Medit_solution back = parsed_solution(SMA::print_medit_solution(s));
-    EXPECT_EQ(back.components, components);
-    EXPECT_EQ(back.values, s.values);
-    EXPECT_EQ(back.number_of_vertices(), 600u / std::size_t(components));
+  for (const std::vector<int>& fields : medit_files::several_fields) {
+    const Medit_solution s = medit_files::random_solution(random, fields);
+    expect_equal(parsed_solution(SMA::print_medit_solution(s)), s);
   }
 }
 
 TEST(Medit_solution, that_is_malformed_is_refused_with_its_line)
 {
-  EXPECT_EQ(parsed_solution(header + "SolAtVertices\n2\n1 1\n0.5 2\n").values, (std::vector<double>{0.5, 2}));
+  EXPECT_EQ(parsed_solution(header + "SolAtVertices\n2\n1 1\n0.5 2\n")[0].values, (std::vector<double>{0.5, 2}));
   EXPECT_GT(solution_error(header), 0u);
-  EXPECT_EQ(solution_error(header + "SolAtVertices\n2\n2 1 1\n1 1 1 1\n"), 5u); // two fields
-  EXPECT_EQ(solution_error(header + "SolAtVertices\n2\n1 2\n1 1 1 1\n"), 5u);   // a vector
+  EXPECT_EQ(solution_error(header + "SolAtVertices\n2\n0\n"), 5u);
+  EXPECT_EQ(solution_error(header + "SolAtVertices\n2\n-1 1\n1 1\n"), 5u);
+  EXPECT_EQ(solution_error(header + "SolAtVertices\n1\n1 5\n1 1\n"), 5u);       // no such type
+  EXPECT_EQ(solution_error(header + "SolAtVertices\n2\n2 1 2\n1 1 1 1\n"), 4u); // eight values are missing four
+  EXPECT_GT(solution_error(header + "SolAtVertices\n1\n2000000000 1 1\n"), 5u);
+  EXPECT_EQ(solution_error(header + "SolAtVertices\n1\n1 1\n1\nSolAtVertices\n1\n1 1\n1\n"), 7u);
   EXPECT_EQ(solution_error(header + "SolAtVertices\n2\n1 1\n1\nnan\n"), 7u);
   EXPECT_GT(solution_error(header + "SolAtVertices\n2\n1 1\n1\n"), 5u);
   EXPECT_EQ(solution_error(header + "SolAtVertices\n4000000000\n1 1\n1\n"), 4u);
