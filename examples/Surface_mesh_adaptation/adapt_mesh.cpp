@@ -69,9 +69,10 @@ private:
 void check_files(const Options& options)
 {
   for (const std::string& file : {options.input, options.output})
-    if (!is_mesh_format(file)) throw Usage_error(file + ": the format must be off, obj, ply, stl or mesh");
+    if (!is_mesh_format(file)) throw Usage_error(file + ": the format must be off, obj, ply, stl, mesh or meshb");
   for (const std::string& file : {options.metric, options.field, options.output_metric})
-    if (!file.empty() && extension(file) != "sol") throw Usage_error(file + ": the format must be sol");
+    if (!file.empty() && extension(file) != "sol" && extension(file) != "solb")
+      throw Usage_error(file + ": the format must be sol or solb");
   if (!options.report.empty() && (options.report == options.output || options.report == options.output_metric))
     throw Usage_error(options.report + ": the same name for two outputs");
   if ((!options.metric.empty() || !options.field.empty()) && extension(options.input) == "stl")

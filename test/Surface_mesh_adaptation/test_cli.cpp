@@ -211,22 +211,22 @@ TEST_F(Adapt_mesh, adapts_to_the_curvature_and_keeps_the_ridges)
 
 TEST_F(Adapt_mesh, adapts_to_a_metric_from_a_file_and_writes_it)
 {
-  SMA::Medit_solution sizes, tensors;
+  SMA::Medit_field sizes, tensors;
   tensors.components = 6;
   for (const Vector_3& p : sphere_.points) {
     const double h = p[2] > 0 ? 0.05 : 0.2;
     sizes.values.push_back(h);
     for (const double c : {1 / (h * h), 0.0, 1 / (h * h), 0.0, 0.0, 1 / (h * h)}) tensors.values.push_back(c);
   }
-  SMA::write_medit_solution(path("sizes.sol").string(), sizes);
-  SMA::write_medit_solution(path("tensors.sol").string(), tensors);
+  SMA::write_medit_solution(path("sizes.sol").string(), {sizes});
+  SMA::write_medit_solution(path("tensors.sol").string(), {tensors});
   for (const std::string kind : {"sizes", "tensors"}) {
     expect_success("in.off out.off --metric " + kind + ".sol --output-metric out.sol --report out.json");
     const Soup after = read(path("out.off"));
     std::size_t upper = 0;
     for (const Vector_3& p : after.points) upper += p[2] > 0;
     EXPECT_GT(upper, 3 * (after.points.size() - upper));
-    const SMA::Medit_solution metric = SMA::read_medit_solution(path("out.sol").string());
+    const SMA::Medit_field metric = SMA::read_medit_solution(path("out.sol").string()).at(0);
     ASSERT_EQ(metric.components, 6);
     ASSERT_EQ(metric.number_of_vertices(), after.points.size());
     for (std::size_t v = 0; v < after.points.size(); ++v)
@@ -397,6 +397,51 @@ TEST_F(Adapt_mesh, refuses_fields_that_it_cannot_use)
   expect_failure(3, "in.off out.off --vertices 100 --field f.sol", "f.sol");
 }
 
+TEST_F(Adapt_mesh, uses_the_field_that_is_meant)
+{
+  SMA::Medit_field vector, u, sizes;
+  vector.components = 3;
+  for (const Vector_3& p : sphere_.points) {
+    for (int i = 0; i < 3; ++i) vector.values.push_back(p[i]);
+    u.values.push_back(p[0] * p[0] - 2); // no size
+    sizes.values.push_back(0.2);
+  }
+  SMA::write_medit_solution(path("all.solb").string(), {vector, u, sizes});
+  SMA::write_medit_solution(path("one.sol").string(), {vector, sizes});
+  SMA::write_medit_solution(path("vector.sol").string(), {vector});
+
+  const std::string all = "; there are: 1 vector, 2 scalar, 3 scalar";
+  const std::string several = run("in.off out.off --field all.solb --vertices 500").err;
+  EXPECT_EQ(several.find("adapt_mesh: warning: all.solb: field 2 is used" + all + "\n"), 0u) << several;
+  for (const std::string arguments : {"--metric all.solb --metric-number 3", "--metric one.sol",
+                                      "--field all.solb --vertices 500 --field-number 2"}) {
+    const Outcome outcome = run("in.off out.off " + arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
+  }
+
+  expect_failure(3, "in.off out.off --quiet --metric all.solb", "(vertex 0)");
+  expect_failure(3, "in.off out.off --metric all.solb --metric-number 1", "field 1 is not a scalar or a tensor" + all);
+  expect_failure(3, "in.off out.off --metric all.solb --metric-number 4", "field 4 is not a scalar or a tensor" + all);
+  expect_failure(3, "in.off out.off --vertices 500 --field vector.sol", "no field is a scalar; there are: 1 vector");
+  expect_failure(2, "in.off out.off --metric all.solb --metric-number 0", "--metric-number");
+  expect_failure(2, "in.off out.off --metric all.solb --field-number 1", "--field-number");
+}
+
+TEST_F(Adapt_mesh, reads_and_writes_binary_medit_files)
+{
+  expect_success("in.off out.mesh --size 0.2 --output-metric out.sol");
+  expect_success("in.off out.meshb --size 0.2 --output-metric out.solb");
+  EXPECT_EQ(SMA::print_medit_mesh(SMA::read_medit_mesh(path("out.meshb").string())), content(path("out.mesh")));
+  EXPECT_EQ(SMA::print_medit_solution(SMA::read_medit_solution(path("out.solb").string())), content(path("out.sol")));
+  expect_success("out.meshb again.off --metric out.solb");
+  EXPECT_TRUE(checks::is_manifold(read(path("again.off"))));
+  write(path("bad.meshb"), content(path("out.meshb")).substr(0, 1000));
+  expect_failure(3, "bad.meshb again.off --size 0.1", "bad.meshb: at byte ");
+  write(path("bad.solb"), content(path("out.solb")).substr(0, 1000));
+  expect_failure(3, "out.meshb again.off --metric bad.solb", "bad.solb: at byte ");
+}
+
 TEST_F(Adapt_mesh, refuses_unknown_formats)
 {
   write(path("in.xyz"), "0 0 0\n");
@@ -431,7 +476,7 @@ TEST_F(Adapt_mesh, refuses_malformed_files_and_names_the_line)
   expect_failure(3, "bad.off out.off --size 0.1", "bad.off");
   write(path("bad.mesh"), "MeshVersionFormatted 2\nDimension 3\nVertices\n1\n0 0 zero 0\n");
   expect_failure(3, "bad.mesh out.off --size 0.1", "bad.mesh:5: ");
-  write(path("bad.sol"), "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n1\n1 2\n");
+  write(path("bad.sol"), "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n1\n1 9\n");
   expect_failure(3, "in.off out.off --metric bad.sol", "bad.sol:5: ");
   for (const std::string format : {"obj", "ply", "stl"}) {
     write(path("bad." + format), "solid nothing\nply v 0 0\nf 1 2 3\n");
@@ -456,19 +501,19 @@ TEST_F(Adapt_mesh, refuses_surfaces_that_are_no_triangulated_manifold)
 
 TEST_F(Adapt_mesh, refuses_metrics_that_do_not_fit)
 {
-  SMA::Medit_solution metric;
+  SMA::Medit_field metric;
   metric.values.assign(sphere_.points.size() - 1, 0.1);
-  SMA::write_medit_solution(path("m.sol").string(), metric);
+  SMA::write_medit_solution(path("m.sol").string(), {metric});
   expect_failure(3, "in.off out.off --metric m.sol", "m.sol");
   for (const double bad : {0.0, -1.0}) {
     metric.values.assign(sphere_.points.size(), 0.1);
     metric.values[17] = bad;
-    SMA::write_medit_solution(path("m.sol").string(), metric);
+    SMA::write_medit_solution(path("m.sol").string(), {metric});
     expect_failure(3, "in.off out.off --metric m.sol", "vertex 17");
   }
   metric.components = 6;
   metric.values.assign(6 * sphere_.points.size(), 0);
-  SMA::write_medit_solution(path("m.sol").string(), metric);
+  SMA::write_medit_solution(path("m.sol").string(), {metric});
   expect_failure(3, "in.off out.off --metric m.sol", "vertex 0");
 }
 

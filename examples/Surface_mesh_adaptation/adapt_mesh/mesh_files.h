@@ -74,9 +74,11 @@ inline std::string extension(const std::string& file)
 
 inline bool is_mesh_format(const std::string& file)
 {
-  const std::array<const char*, 5> known = {"off", "obj", "ply", "stl", "mesh"};
+  const std::array<const char*, 6> known = {"off", "obj", "ply", "stl", "mesh", "meshb"};
   return std::find(known.begin(), known.end(), extension(file)) != known.end();
 }
+
+inline bool is_medit_format(const std::string& file) { return extension(file) == "mesh" || extension(file) == "meshb"; }
 
 namespace internal {
 
@@ -218,7 +220,7 @@ inline void read_mesh(const std::string& file, Constrained_mesh& result)
   if (!std::filesystem::exists(path)) throw SMA::Io_error(file, 0, "no such file");
   if (!std::filesystem::is_regular_file(path)) throw SMA::Io_error(file, 0, "not a file");
   if (!std::ifstream(path)) throw SMA::Io_error(file, 0, "cannot be read");
-  if (extension(path) == "mesh") internal::read_medit(path, result);
+  if (is_medit_format(path)) internal::read_medit(path, result);
   else internal::read_with_cgal(path, result);
 }
 
@@ -226,7 +228,7 @@ inline void read_mesh(const std::string& file, Constrained_mesh& result)
 inline void write_mesh(const std::string& file, const Constrained_mesh& mesh)
 {
   const std::string format = extension(file);
-  if (format == "mesh")
+  if (is_medit_format(file))
     return SMA::write_medit_mesh(
       file, SMA::triangle_mesh_to_medit(mesh.mesh, mesh.edge_is_constrained, mesh.vertex_is_constrained));
   std::ofstream out(file, std::ios::binary);

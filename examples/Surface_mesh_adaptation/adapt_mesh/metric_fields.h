@@ -8,10 +8,13 @@
 #include "Bad_input.h"
 #include "metric_files.h"
 #include "options.h"
+#include "solution_files.h"
 
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
 
 #include <cstddef>
+#include <iostream>
+#include <string>
 
 namespace adapt_mesh {
 
@@ -38,9 +41,19 @@ inline SMA::Curvature_metric_field curvature_field(const Options& options)
   return field;
 }
 
+/// As an option asks for it. \throws Bad_input
+inline SMA::Medit_field field_of_file(const Options& options, const Wanted_field& wanted, const Constrained_mesh& mesh)
+{
+  const auto warn = [&](const std::string& text) {
+    if (!options.quiet) std::cerr << "adapt_mesh: warning: " << text << '\n';
+  };
+  return reading(wanted.file, [&] { return read_field(wanted, mesh.vertex_of_point.size(), warn); });
+}
+
 inline auto solution_field(const Options& options, Constrained_mesh& mesh)
 {
-  const SMA::Medit_solution values = reading(options.field, [&] { return read_scalars(options.field, mesh); });
+  const Wanted_field wanted{options.field, std::size_t(options.field_number), {1}, "a scalar"};
+  const SMA::Medit_field values = field_of_file(options, wanted, mesh);
   auto field = configured(options, SMA::Solution_metric_field(scalar_map(values, mesh), std::size_t(options.vertices)));
   field.norm = options.norm.value_or(field.norm);
   field.anisotropic = options.anisotropic;
@@ -61,7 +74,8 @@ auto intersection(const Options& options, const Fields&... fields)
 template <class Adapt>
 SMA::Adaptation_report with_metric_of_file(const Options& options, Constrained_mesh& mesh, const Adapt& adapt)
 {
-  const SMA::Medit_solution metric = reading(options.metric, [&] { return read_metric(options.metric, mesh); });
+  const Wanted_field wanted{options.metric, std::size_t(options.metric_number), {1, 6}, "a scalar or a tensor"};
+  const SMA::Medit_field metric = field_of_file(options, wanted, mesh);
   const Size_bounds bounds(options.hmin, options.hmax);
   const auto adapt_to = [&](const auto& map) {
     return options.vertices > 0 || options.gradation ? adapt(intersection(options, map)) : adapt(map);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Metrics at the vertices, from and to MEDIT's .sol files.
+// Metrics at the vertices, from and to the fields of MEDIT's solutions.
 
 #ifndef ADAPT_MESH_METRIC_FILES_H
 #define ADAPT_MESH_METRIC_FILES_H
@@ -47,27 +47,7 @@ private:
 inline bool is_valid_metric(double size) { return size > 0; }
 inline bool is_valid_metric(const SMA::Metric_tensor_3& m) { return SMA::is_positive_definite(m); }
 
-/// Reads a metric for the vertices of `mesh`. \throws Io_error
-inline SMA::Medit_solution read_metric(const std::string& file, const Constrained_mesh& mesh)
-{
-  SMA::Medit_solution metric = SMA::read_medit_solution(file);
-  const std::size_t n = mesh.vertex_of_point.size();
-  if (metric.number_of_vertices() != n)
-    throw SMA::Io_error(file, 0,
-                        "there are values for " + std::to_string(metric.number_of_vertices()) +
-                          " vertices, but the mesh has " + std::to_string(n));
-  return metric;
-}
-
-/// Reads one value for each vertex of `mesh`. \throws Io_error
-inline SMA::Medit_solution read_scalars(const std::string& file, const Constrained_mesh& mesh)
-{
-  SMA::Medit_solution values = read_metric(file, mesh);
-  if (values.components != 1) throw SMA::Io_error(file, 0, "a field has one value at each vertex");
-  return values;
-}
-
-inline Mesh::Property_map<Vertex, double> scalar_map(const SMA::Medit_solution& field, Constrained_mesh& mesh)
+inline Mesh::Property_map<Vertex, double> scalar_map(const SMA::Medit_field& field, Constrained_mesh& mesh)
 {
   auto map = mesh.mesh.add_property_map<Vertex, double>("v:field").first;
   for (std::size_t i = 0; i < mesh.vertex_of_point.size(); ++i)
@@ -90,12 +70,12 @@ Mesh::Property_map<Vertex, Value> metric_map(Constrained_mesh& mesh, const Size_
   return map;
 }
 
-inline auto size_map(const SMA::Medit_solution& metric, Constrained_mesh& mesh, const Size_bounds& bounds)
+inline auto size_map(const SMA::Medit_field& metric, Constrained_mesh& mesh, const Size_bounds& bounds)
 {
   return metric_map<double>(mesh, bounds, [&](std::size_t i) { return metric.values[i]; });
 }
 
-inline auto tensor_map(const SMA::Medit_solution& metric, Constrained_mesh& mesh, const Size_bounds& bounds)
+inline auto tensor_map(const SMA::Medit_field& metric, Constrained_mesh& mesh, const Size_bounds& bounds)
 {
   return metric_map<SMA::Metric_tensor_3>(mesh, bounds, [&](std::size_t i) {
     const double* const c = metric.values.data() + 6 * i;
@@ -123,13 +103,13 @@ struct Output_metric
 /// Writes the tensors of the vertices in the order of the mesh. \throws Io_error
 inline void write_metric(const std::string& file, const Mesh& mesh, const Output_metric& metric)
 {
-  SMA::Medit_solution solution;
-  solution.components = 6;
+  SMA::Medit_field tensors;
+  tensors.components = 6;
   for (const Vertex v : mesh.vertices()) {
     const SMA::Metric_tensor_3& m = get(metric.map, v);
-    for (int i = 0; i < 6; ++i) solution.values.push_back(m[i]);
+    for (int i = 0; i < 6; ++i) tensors.values.push_back(m[i]);
   }
-  SMA::write_medit_solution(file, solution);
+  SMA::write_medit_solution(file, {tensors});
 }
 
 } // namespace adapt_mesh

@@ -30,6 +30,8 @@ struct Options
   double curvature = 0;
   std::string metric; ///< a file, empty if not given
   std::string field;  ///< the same
+  int metric_number = 0; ///< which of the fields in the file
+  int field_number = 0;  ///< the same
   std::optional<double> norm; ///< p of L^p, may be infinite
   bool anisotropic = false;
   int vertices = 0;
@@ -70,6 +72,10 @@ inline po::options_description described_options(Options& o)
     ("field", po::value(&o.field)->value_name("FILE.sol"),
      "values at the vertices of the input, of which the interpolation error is to be as small as --vertices allow; with "
      "--curvature: the intersection of both")
+    ("metric-number", po::value(&o.metric_number)->value_name("I"),
+     "which field of the file of --metric is meant, from 1 (default: the first scalar or tensor)")
+    ("field-number", po::value(&o.field_number)->value_name("I"),
+     "which field of the file of --field is meant, from 1 (default: the first scalar)")
     ("norm", po::value<double>()->value_name("P")->notifier([&](double p) { o.norm = p; }),
      "the L^P norm in which --field measures the error, 1 to inf (default: 2)")
     ("anisotropic", po::bool_switch(&o.anisotropic),
@@ -123,6 +129,8 @@ inline void check_positive(const po::variables_map& given, const Options& o)
   check("rounds", o.rounds);
   check("threads", o.threads);
   check("vertices", o.vertices);
+  check("metric-number", o.metric_number);
+  check("field-number", o.field_number);
   if (o.norm && !(*o.norm >= 1)) throw Usage_error("--norm must be at least 1, or inf");
   if (o.gradation && !(std::isfinite(*o.gradation) && *o.gradation >= 1))
     throw Usage_error("--gradation must be at least 1");
@@ -144,6 +152,8 @@ inline void check_consistent(const Options& o)
   if (has_curvature && !has_field && o.vertices > 0)
     throw Usage_error("--vertices contradicts --curvature: both say how fine the mesh is to be");
   if (o.norm && !has_field) throw Usage_error("--norm needs --field");
+  if (o.field_number > 0 && !has_field) throw Usage_error("--field-number needs --field");
+  if (o.metric_number > 0 && !has_metric) throw Usage_error("--metric-number needs --metric");
   if (o.anisotropic && (o.size > 0 || has_metric))
     throw Usage_error("--anisotropic needs --curvature, --field, --vertices or --tolerance");
   if (o.size > 0 && (o.hmin > 0 || o.hmax > 0)) throw Usage_error("--hmin and --hmax contradict --size");
@@ -163,8 +173,8 @@ inline void print_help(std::ostream& out)
   out
     << "Usage: adapt_mesh INPUT OUTPUT [options]\n\n"
        "Adapts the triangulated surface in INPUT to a metric and writes it to OUTPUT. The formats follow from the\n"
-       "extensions: off, obj, ply, stl, mesh (MEDIT). One of --size, --curvature, --metric, --field, --vertices and\n"
-       "--tolerance is required.\n\n"
+       "extensions: off, obj, ply, stl, mesh or meshb (MEDIT), and sol or solb for fields. One of --size, --curvature,\n"
+       "--metric, --field, --vertices and --tolerance is required.\n\n"
     << internal::described_options(options) << "\nExit status: 0 done, 1 failed, 2 wrong usage, 3 unusable input.\n";
 }
 
