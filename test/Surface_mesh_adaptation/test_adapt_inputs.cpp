@@ -496,7 +496,7 @@ double mark_equator(const TriangleMesh& mesh, const Map& map)
   const auto point = get(CGAL::vertex_point, mesh);
   double length = 0;
   for (const auto e : edges(mesh)) {
-    const auto &p = get(point, source(e, mesh)), &q = get(point, target(e, mesh));
+    const auto p = get(point, source(e, mesh)), q = get(point, target(e, mesh));
     if (std::abs(p.z()) + std::abs(q.z()) > 1e-9) continue;
     put(map, e, true);
     length += std::sqrt(CGAL::squared_distance(p, q));
