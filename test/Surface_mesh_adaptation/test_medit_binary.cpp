@@ -87,8 +87,7 @@ void expect_error(const std::string& content, const std::string& what)
 
 const std::string header = bytes(1, 2, 3, 20, 3); // up to the byte 20
 /// Up to the byte 144, where the next section starts.
-const std::string vertices =
-  bytes(4, 144, 4, 0., 0., 0., 1, 1., 0., 0., 2, 0., 1., 0., 3, 0., 0., 1., 4);
+const std::string vertices = bytes(4, 144, 4, 0., 0., 0., 1, 1., 0., 0., 2, 0., 1., 0., 3, 0., 0., 1., 4);
 
 TEST(Medit_binary, holds_what_the_text_holds)
 {
@@ -232,7 +231,8 @@ TEST(Medit_binary, with_random_damage_is_read_or_refused)
   };
   std::size_t refused = 0;
   for (const Medit_binary_layout& layout : layouts) {
-    const std::string binary = SMA::print_medit_mesh(mesh, layout), values = SMA::print_medit_solution(solution, layout);
+    const std::string binary = SMA::print_medit_mesh(mesh, layout),
+                      values = SMA::print_medit_solution(solution, layout);
     for (int trial = 0; trial < 5000; ++trial)
       refused += std::size_t(is_refused(damaged(binary))) + std::size_t(is_refused_solution(damaged(values)));
   }

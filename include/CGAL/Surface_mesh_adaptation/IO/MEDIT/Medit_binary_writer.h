@@ -7,6 +7,7 @@
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT/binary_keywords.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -37,8 +38,7 @@ public:
   template <class Integer>
   Medit_binary_writer& integer(Integer i)
   {
-    put_integer(bytes_.size(), std::int64_t(i), layout_.has_long_integers());
-    return *this;
+    return layout_.has_long_integers() ? append(std::int64_t(i)) : append(std::int32_t(i));
   }
 
   Medit_binary_writer& word_sized(int i) { return append(std::int32_t(i)); }
@@ -55,31 +55,31 @@ private:
   /// Starts a section, to which the one before points; none comes after it as yet.
   void begin_section(const char* keyword)
   {
-    if (link_ != 0) put_integer(link_, std::int64_t(bytes_.size()), layout_.has_long_positions());
+    if (link_ != 0) set_position(link_, bytes_.size());
     word_sized(medit_code(keyword));
     link_ = bytes_.size();
-    put_integer(link_, 0, layout_.has_long_positions());
+    bytes_.resize(link_ + (layout_.has_long_positions() ? 8 : 4), '\0');
   }
 
-  void put_integer(std::size_t place, std::int64_t i, bool is_long)
+  void set_position(std::size_t place, std::size_t position)
   {
-    if (is_long) put(place, i);
-    else put(place, std::int32_t(i));
+    if (layout_.has_long_positions()) copy_bytes(std::int64_t(position), bytes_.data() + place);
+    else copy_bytes(std::int32_t(position), bytes_.data() + place);
   }
 
   template <class Number>
-  void put(std::size_t place, Number x)
+  void copy_bytes(Number x, char* place) const
   {
-    if (place == bytes_.size()) bytes_.resize(place + sizeof(Number));
-    char* const bytes = bytes_.data() + place;
-    std::memcpy(bytes, &x, sizeof(Number));
-    if (layout_.swapped) std::reverse(bytes, bytes + sizeof(Number));
+    std::memcpy(place, &x, sizeof(Number));
+    if (layout_.swapped) std::reverse(place, place + sizeof(Number));
   }
 
   template <class Number>
   Medit_binary_writer& append(Number x)
   {
-    put(bytes_.size(), x);
+    std::array<char, sizeof(Number)> bytes;
+    copy_bytes(x, bytes.data());
+    bytes_.append(bytes.data(), bytes.size());
     return *this;
   }
 

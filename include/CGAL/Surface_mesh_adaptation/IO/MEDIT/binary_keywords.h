@@ -19,40 +19,20 @@ namespace internal {
 using Medit_keyword = std::pair<std::int32_t, const char*>;
 
 /// Those that are read or written here, and those that are common in files of surfaces.
-constexpr std::array<Medit_keyword, 29> medit_keywords = {{{3, "Dimension"},
-                                                           {4, "Vertices"},
-                                                           {5, "Edges"},
-                                                           {6, "Triangles"},
-                                                           {7, "Quadrilaterals"},
-                                                           {8, "Tetrahedra"},
-                                                           {9, "Prisms"},
-                                                           {10, "Hexahedra"},
-                                                           {13, "Corners"},
-                                                           {14, "Ridges"},
-                                                           {15, "RequiredVertices"},
-                                                           {16, "RequiredEdges"},
-                                                           {17, "RequiredTriangles"},
-                                                           {18, "RequiredQuadrilaterals"},
-                                                           {19, "TangentAtEdgeVertices"},
-                                                           {20, "NormalAtVertices"},
-                                                           {21, "NormalAtTriangleVertices"},
-                                                           {22, "NormalAtQuadrilateralVertices"},
-                                                           {23, "AngleOfCornerBound"},
-                                                           {49, "Pyramids"},
-                                                           {54, "End"},
-                                                           {59, "Tangents"},
-                                                           {60, "Normals"},
-                                                           {61, "TangentAtVertices"},
-                                                           {62, "SolAtVertices"},
-                                                           {63, "SolAtEdges"},
-                                                           {64, "SolAtTriangles"},
-                                                           {65, "SolAtQuadrilaterals"},
-                                                           {66, "SolAtTetrahedra"}}};
+// clang-format off
+constexpr std::array<Medit_keyword, 29> medit_keywords = {{
+  {3, "Dimension"}, {4, "Vertices"}, {5, "Edges"}, {6, "Triangles"}, {7, "Quadrilaterals"}, {8, "Tetrahedra"},
+  {9, "Prisms"}, {10, "Hexahedra"}, {13, "Corners"}, {14, "Ridges"}, {15, "RequiredVertices"}, {16, "RequiredEdges"},
+  {17, "RequiredTriangles"}, {18, "RequiredQuadrilaterals"}, {19, "TangentAtEdgeVertices"}, {20, "NormalAtVertices"},
+  {21, "NormalAtTriangleVertices"}, {22, "NormalAtQuadrilateralVertices"}, {23, "AngleOfCornerBound"}, {49, "Pyramids"},
+  {54, "End"}, {59, "Tangents"}, {60, "Normals"}, {61, "TangentAtVertices"}, {62, "SolAtVertices"}, {63, "SolAtEdges"},
+  {64, "SolAtTriangles"}, {65, "SolAtQuadrilaterals"}, {66, "SolAtTetrahedra"}}};
+// clang-format on
 
 inline std::string medit_keyword(std::int32_t code)
 {
-  const auto found = std::find_if(medit_keywords.begin(), medit_keywords.end(),
-                                  [&](const Medit_keyword& k) { return k.first == code; });
+  const auto found =
+    std::find_if(medit_keywords.begin(), medit_keywords.end(), [&](const Medit_keyword& k) { return k.first == code; });
   return found == medit_keywords.end() ? std::to_string(code) : found->second;
 }
 

@@ -74,14 +74,19 @@ private:
   Medit_solution solution_;
 };
 
+/// MEDIT's number for fields with so many components.
+inline int type_of_field(int components)
+{
+  const auto found = std::find(components_of_type.begin(), components_of_type.end(), components);
+  return int(found - components_of_type.begin()) + 1;
+}
+
 /// \pre all fields have as many vertices, and a number of components that MEDIT knows
 template <class Writer>
 void write_sections(Writer& out, const Medit_solution& solution)
 {
   out.section("SolAtVertices", solution.front().number_of_vertices()).word_sized(int(solution.size()));
-  for (const Medit_field& field : solution)
-    out.word_sized(int(std::find(components_of_type.begin(), components_of_type.end(), field.components) -
-                       components_of_type.begin()) + 1);
+  for (const Medit_field& field : solution) out.word_sized(type_of_field(field.components));
   out.end_line();
   for (std::size_t v = 0; v < solution.front().number_of_vertices(); ++v) {
     for (const Medit_field& field : solution) {
