@@ -15,7 +15,7 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_placement.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
 #include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_policies.h>
 #include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 #include <CGAL/boost/graph/helpers.h>
@@ -121,9 +121,11 @@ Mesh simplified(Mesh mesh, std::size_t vertices)
 {
   namespace SMS = CGAL::Surface_mesh_simplification;
   const Policies policies(mesh);
-  const SMS::Bounded_normal_change_placement<typename Policies::Get_placement> placement(policies.get_placement());
   const auto stop = [&](const auto&...) { return mesh.number_of_vertices() <= vertices; };
-  SMS::edge_collapse(mesh, stop, CGAL::parameters::get_cost(policies.get_cost()).get_placement(placement));
+  SMS::edge_collapse(mesh, stop,
+                     CGAL::parameters::get_cost(policies.get_cost())
+                       .get_placement(policies.get_placement())
+                       .filter(SMS::Bounded_normal_change_filter<>()));
   mesh.collect_garbage();
   return mesh;
 }
