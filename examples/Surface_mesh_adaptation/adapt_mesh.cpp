@@ -24,10 +24,16 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace adapt_mesh {
 
 enum Exit_status { done = 0, failed = 1, bad_usage = 2, bad_input = 3 };
+
+void append(std::vector<std::string>& all, const std::vector<std::string>& sentences)
+{
+  all.insert(all.end(), sentences.begin(), sentences.end());
+}
 
 /// The files that a run writes: all of them, or none.
 class Outputs
@@ -39,9 +45,10 @@ public:
     if (!options.report.empty()) report_.emplace(options.report);
   }
 
-  void write(const Constrained_mesh& mesh, const Output_metric& metric, const SMA::Adaptation_report& report)
+  /// Adds warnings to the report before it writes it.
+  void write(const Constrained_mesh& mesh, const Output_metric& metric, SMA::Adaptation_report& report)
   {
-    mesh_.write([&](const std::string& file) { write_mesh(file, mesh); });
+    mesh_.write([&](const std::string& file) { append(report.warnings, write_mesh(file, mesh)); });
     if (metric_) metric_->write([&](const std::string& file) { write_metric(file, mesh.mesh, metric); });
     if (report_) report_->write([&](const std::string& file) { write_report(file, report); });
   }
@@ -87,9 +94,7 @@ void run(const Options& options)
   Progress progress(options.quiet, options.verbose);
 
   Constrained_mesh mesh;
-  reading(options.input, [&] { read_mesh(options.input, mesh); });
-  if (!options.quiet)
-    for (const std::string& warning : mesh.warnings) std::cerr << "adapt_mesh: warning: " << warning << '\n';
+  reading(options.input, [&] { read_mesh(options.input, mesh, {!options.no_weld, options.repair}); });
   const Mesh input = options.quiet ? Mesh() : mesh.mesh;
   Output_metric output_metric;
   output_metric.wanted = !options.output_metric.empty();
@@ -97,7 +102,9 @@ void run(const Options& options)
     output_metric.map = mesh.mesh.add_property_map<Vertex, SMA::Metric_tensor_3>("v:metric").first;
 
   const auto adapt = options.flat ? adapt_on_triangles : adapt_on_patches;
-  const SMA::Adaptation_report report = adapt(options, mesh, output_metric, progress);
+  SMA::Adaptation_report report = adapt(options, mesh, output_metric, progress);
+  append(report.repairs, mesh.repairs);
+  append(report.warnings, mesh.warnings);
   outputs.write(mesh, output_metric, report);
   if (!progress.go_on()) throw std::runtime_error("interrupted, nothing was written");
   outputs.commit();

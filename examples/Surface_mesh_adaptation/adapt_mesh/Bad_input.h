@@ -30,6 +30,8 @@ auto blaming(const std::string& file, const Use& use)
     throw Bad_input(file + ": " + e.what());
   } catch (const SMA::Empty_mesh_error& e) {
     throw Bad_input(file + ": " + e.what());
+  } catch (const SMA::Invalid_extent_error& e) {
+    throw Bad_input(file + ": " + e.what());
   }
 }
 

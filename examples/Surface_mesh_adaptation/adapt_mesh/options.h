@@ -44,6 +44,8 @@ struct Options
   double hmax = 0;
   std::optional<double> feature_angle; ///< in degrees
   bool no_features = false;
+  bool no_weld = false;
+  bool repair = false;
   int rounds = 0;
   int threads = 0;
   std::string execution; ///< empty: the best one that was built in
@@ -100,6 +102,10 @@ inline po::options_description described_options(Options& o)
      "let the faces run through the surface instead of touching it with their vertices, and so nearer to it")
     ("shape-weight", po::value<double>()->value_name("W")->notifier([&](double w) { o.shape_weight = w; }),
      "what the shape of the faces counts with --fit, up to 1: the smaller, the nearer and the worse shaped (default: 0.02)")
+    ("no-weld", po::bool_switch(&o.no_weld),
+     "leave coincident vertices apart, which are joined along seams otherwise")
+    ("repair", po::bool_switch(&o.repair),
+     "mend an input that is no valid surface: leave out what makes no sense, cut apart where more than two faces meet")
     ("rounds", po::value(&o.rounds)->value_name("N"), "number of rounds of the kernels")
     ("threads", po::value(&o.threads)->value_name("N"), "number of threads (default: all)")
     ("execution", po::value(&o.execution)->value_name("WHICH"),

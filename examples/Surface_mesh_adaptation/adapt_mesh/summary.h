@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
 
 namespace adapt_mesh {
 
@@ -42,6 +43,8 @@ inline void print_summary(const SMA::Adaptation_report& report, const Mesh& inpu
                 report.certified_distance / report.tolerance);
   std::printf("time      %.3g s, %s, %d thread%s\n", report.seconds, report.execution.c_str(), report.threads,
               report.threads == 1 ? "" : "s");
+  for (const std::string& sentence : report.repairs) std::printf("repaired  %s\n", sentence.c_str());
+  for (const std::string& sentence : report.warnings) std::printf("warning   %s\n", sentence.c_str());
 }
 
 } // namespace adapt_mesh

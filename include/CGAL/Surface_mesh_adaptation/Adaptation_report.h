@@ -50,6 +50,7 @@ struct Adaptation_report
   Mesh_statistics final;           ///< the output in the same metric
   std::size_t rounds = 0;          ///< rounds done
   bool stopped = false;            ///< by the visitor
+  std::vector<std::string> repairs; ///< what was mended in the input before, one sentence each
   std::vector<std::string> warnings; ///< what was asked for and not reached, one sentence each
   std::size_t fallback_patches = 0; ///< faces of the input over which the surface is less smooth than elsewhere
   std::vector<Kernel_report> kernels;
@@ -122,8 +123,11 @@ inline void Adaptation_report::write_json(std::ostream& out) const
   internal::write_json(out, final);
   if (tolerance > 0)
     out << ",\n  \"tolerance\": " << tolerance << ", \"certified_distance\": " << certified_distance;
+  const auto sentence = [&](const std::string& s) { internal::write_json(out, s); };
+  out << ",\n  \"repairs\": ";
+  internal::write_json_list(out, repairs, sentence);
   out << ",\n  \"warnings\": ";
-  internal::write_json_list(out, warnings, [&](const std::string& w) { internal::write_json(out, w); });
+  internal::write_json_list(out, warnings, sentence);
   out << ",\n  \"after_round\": ";
   internal::write_json_list(out, after_round, [&](const Mesh_statistics& s) {
     out << "\n    ";

@@ -117,6 +117,21 @@ public:
   Empty_mesh_error() : Adaptation_error("the mesh has no face") {}
 };
 
+/// An input that is so large, or so small, that squares of lengths would overflow or underflow; or a single place.
+class Invalid_extent_error : public Adaptation_error
+{
+public:
+  explicit Invalid_extent_error(double extent)
+    : Adaptation_error("the extent of the mesh is " + internal::number(extent) + ", not within 1e-100 and 1e100: scale it"),
+      extent_(extent)
+  {}
+
+  double extent() const { return extent_; } ///< largest side of the bounding box, or largest coordinate
+
+private:
+  double extent_;
+};
+
 /// A parameter outside its domain.
 class Invalid_parameter_error : public Adaptation_error
 {

@@ -220,9 +220,31 @@ void check_fans(const Execution& execution, const Mesh_view& mesh, const Number&
   if (fans.first_non_simplicial < n) throw Non_simplicial_edge_error(fans.first_non_simplicial);
 }
 
+/// Least and largest coordinates of points.
+struct Bounding_box
+{
+  Vector_3 lower = Vector_3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+
+  friend Bounding_box operator+(const Bounding_box& a, const Bounding_box& b)
+  {
+    return {a.lower.cwiseMin(b.lower), a.upper.cwiseMax(b.upper)};
+  }
+};
+
+/// \throws Invalid_extent_error
+inline void check_extent(const Bounding_box& box)
+{
+  constexpr double least = 1e-100, most = 1e100; // of whose squares areas and volumes can be made
+  const double extent = (box.upper - box.lower).maxCoeff();
+  const double largest = (std::max)(extent, box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).maxCoeff());
+  if (largest > most) throw Invalid_extent_error(largest);
+  if (extent < least) throw Invalid_extent_error(extent);
+}
+
 /// Reads `graph` as `read_face_graph()` does, but leaves it to `check_fans()` to walk around the vertices, which takes
 /// long where their order is poor.
-/// \throws Non_triangular_face_error, Non_finite_coordinate_error, Empty_mesh_error, Mesh_too_large_error
+/// \throws Non_triangular_face_error, Non_finite_coordinate_error, Invalid_extent_error, Empty_mesh_error,
+///         Mesh_too_large_error
 template <class Execution, class FaceGraph, class VertexPointMap>
 Imported_mesh<FaceGraph> import_face_graph(const Execution& execution, const FaceGraph& graph,
                                            const VertexPointMap& point_map)
@@ -239,6 +261,9 @@ Imported_mesh<FaceGraph> import_face_graph(const Execution& execution, const Fac
       return result.points[v].allFinite() ? n : v;
     }, [](std::size_t a, std::size_t b) { return (std::min)(a, b); });
     if (bad < n) throw Non_finite_coordinate_error(bad);
+    check_extent(reduce(policy, n, Bounding_box(), [&](std::size_t v) {
+      return Bounding_box{result.points[v], result.points[v]};
+    }, std::plus<Bounding_box>()));
   });
   return result;
 }
@@ -246,7 +271,7 @@ Imported_mesh<FaceGraph> import_face_graph(const Execution& execution, const Fac
 /// Reads `graph`, a triangulated surface with the points `get(point_map, v)`, into arrays, and checks it: an orientable
 /// 2-manifold, closed or with boundary, without isolated vertices. `detect_features()` comes
 /// next: without it `mesh.curve` is not set.
-/// \throws any `Invalid_input_error`, Empty_mesh_error, Mesh_too_large_error
+/// \throws any `Invalid_input_error`, Invalid_extent_error, Empty_mesh_error, Mesh_too_large_error
 /// \complexity O(n)
 template <class Execution, class FaceGraph, class VertexPointMap>
 Imported_mesh<FaceGraph> read_face_graph(const Execution& execution, const FaceGraph& graph,

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// MEDIT by the package, other formats by CGAL where it is robust enough. Compiled apart, as the repair of meshes is a
+// lot to compile.
+
+#include "mesh_files.h"
+
+#include "Bad_input.h"
+#include "soup_files.h"
+
+#include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
+#include <CGAL/Surface_mesh_adaptation/IO/repair.h>
+#include <CGAL/Surface_mesh_adaptation/exceptions.h>
+#include <CGAL/Surface_mesh_adaptation/face_graph.h>
+
+#include <CGAL/boost/graph/IO/polygon_mesh_io.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace adapt_mesh {
+
+namespace {
+
+/// CGAL's readers and writers complain on the standard streams: not while one of these lives.
+class Silence
+{
+public:
+  Silence() : out_(std::cout.rdbuf(nullptr)), error_(std::cerr.rdbuf(nullptr)) {}
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+  ~Silence()
+  {
+    std::cout.rdbuf(out_);
+    std::cerr.rdbuf(error_);
+  }
+
+private:
+  std::streambuf* out_;
+  std::streambuf* error_;
+};
+
+std::string joined(const std::vector<std::string>& sentences)
+{
+  std::string text;
+  for (const std::string& s : sentences) text += (text.empty() ? "" : "; ") + s;
+  return text;
+}
+
+void append(std::vector<std::string>& all, const std::string& file, const std::vector<std::string>& sentences)
+{
+  for (const std::string& s : sentences) all.push_back(file + ": " + s);
+}
+
+void parse_polygons(const std::string& text, const std::string& file, Constrained_mesh& result,
+                    const Reading_options& options)
+{
+  Polygon_soup soup = parse_polygon_soup(text, extension(file), file);
+  result.vertex_of_point.assign(soup.points.size(), Mesh::null_vertex());
+  SMA::internal::Soup_repair<Point> repair(std::move(soup.points), soup.polygons);
+  const SMA::Repair_report report = repair.build(result.mesh, {options.weld, options.repair});
+  if (!options.repair && !report.is_valid())
+    throw Bad_input(file + ": " + joined(report.offences()) + "; --repair mends this");
+  for (std::size_t i = report.point_of_vertex.size(); i-- > 0;) // a copy comes later than its original
+    result.vertex_of_point[report.point_of_vertex[i]] = Vertex(Mesh::size_type(i));
+  append(result.repairs, file, report.repairs());
+  append(result.warnings, file, report.warnings());
+  if (!soup.lost.empty()) result.warnings.push_back(file + ": not kept: " + joined(soup.lost));
+}
+
+void parse_medit(const std::string& text, const std::string& file, Constrained_mesh& result)
+{
+  const SMA::Medit_mesh medit = SMA::parse_medit_mesh(text, file);
+  result.vertex_of_point =
+    SMA::medit_to_triangle_mesh(medit, result.mesh, result.edge_is_constrained, result.vertex_is_constrained);
+  for (const std::string& section : medit.ignored_sections)
+    result.warnings.push_back(file + ": the section " + section + " is ignored");
+  const auto& references = medit.triangle_references;
+  if (std::adjacent_find(references.begin(), references.end(), std::not_equal_to<>()) != references.end())
+    result.warnings.push_back(file + ": the references of the triangles are not kept");
+}
+
+/// Where the file is: as named or, if there is none, among CGAL's data.
+std::string located(const std::string& file)
+{
+  if (std::filesystem::exists(file)) return file;
+  const Silence silence;
+  const std::string data_file = CGAL::data_file_path(file);
+  return std::filesystem::exists(data_file) ? data_file : file;
+}
+
+/// Largest distance along an axis by which single precision would move a vertex.
+double rounding_of_single_precision(const Mesh& mesh)
+{
+  double largest = 0;
+  for (const Vertex v : mesh.vertices())
+    for (int i = 0; i < 3; ++i) {
+      const double x = mesh.point(v)[i];
+      largest = (std::max)(largest, std::abs(x - double(float(x))));
+    }
+  return largest;
+}
+
+double shortest_edge(const Mesh& mesh)
+{
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const Edge e : mesh.edges())
+    shortest = (std::min)(shortest, CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
+  return std::sqrt(shortest);
+}
+
+bool write_with_cgal(std::ofstream& out, const std::string& format, bool is_binary, const Mesh& mesh)
+{
+  const auto precision = CGAL::parameters::stream_precision(std::numeric_limits<double>::max_digits10);
+  if (is_binary) CGAL::IO::set_binary_mode(out);
+  return format == "off"   ? CGAL::IO::write_OFF(out, mesh, precision)
+         : format == "obj" ? CGAL::IO::write_OBJ(out, mesh, precision)
+         : format == "ply" ? CGAL::IO::write_PLY(out, mesh, precision)
+                           : CGAL::IO::write_STL(out, mesh, precision);
+}
+
+} // namespace
+
+void parse_mesh(const std::string& text, const std::string& file, Constrained_mesh& result,
+                const Reading_options& options)
+{
+  const Silence silence;
+  if (is_medit_format(file)) parse_medit(text, file, result);
+  else parse_polygons(text, file, result, options);
+  if (result.mesh.number_of_faces() == 0) throw SMA::Empty_mesh_error();
+  SMA::internal::import_face_graph(SMA::Sequential_execution(), result.mesh, result.mesh.points()); // checks it
+}
+
+void read_mesh(const std::string& file, Constrained_mesh& result, const Reading_options& options)
+{
+  const std::string path = located(file);
+  if (!std::filesystem::exists(path)) throw SMA::Io_error(file, 0, "no such file");
+  if (!std::filesystem::is_regular_file(path)) throw SMA::Io_error(file, 0, "not a file");
+  parse_mesh(SMA::internal::read_content(path), file, result, options);
+}
+
+std::vector<std::string> write_mesh(const std::string& file, const Constrained_mesh& mesh)
+{
+  const std::string format = extension(file);
+  if (is_medit_format(file)) {
+    SMA::write_medit_mesh(
+      file, SMA::triangle_mesh_to_medit(mesh.mesh, mesh.edge_is_constrained, mesh.vertex_is_constrained));
+    return {};
+  }
+  constexpr double largest_share = 0.01; // of the shortest edge that rounding may move a vertex by
+  const bool is_too_coarse = // for the single precision of binary stl files
+    format == "stl" && rounding_of_single_precision(mesh.mesh) > largest_share * shortest_edge(mesh.mesh);
+  std::ofstream out(file, std::ios::binary);
+  const bool success = write_with_cgal(out, format, format == "ply" || (format == "stl" && !is_too_coarse), mesh.mesh);
+  if (!success || !out.flush()) throw SMA::Io_error(file, 0, "cannot be written");
+  if (!is_too_coarse) return {};
+  return {"the output is text: the single precision of binary stl files would move vertices by more than a hundredth of "
+          "the shortest edge"};
+}
+
+} // namespace adapt_mesh
