@@ -7,69 +7,60 @@
 
 #include <CGAL/Surface_mesh_adaptation/IO/triangle_soup.h>
 
-#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/boost/graph/iterator.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/utility.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <iterator>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 namespace internal {
 
-/// Triangulates single polygons with different corners, given by the indices of points. A polygon that crosses itself,
-/// or has no area, is divided from its first corner.
+/// Triangulates single polygons with different corners, given by the indices of points. A polygon that CGAL finds no
+/// triangles for, as it crosses itself or has no area, is divided from its first corner.
 template <class Point>
 class Polygon_triangulator
 {
 public:
   explicit Polygon_triangulator(const std::vector<Point>& points) : points_(points) {}
 
-  Triangle_soup operator()(const std::vector<std::uint32_t>& polygon)
+  Triangle_soup operator()(const std::vector<std::uint32_t>& polygon) const
   {
-    try {
-      triangulate(polygon);
-    } catch (const std::exception&) { // of what CGAL asserts
-      triangles_.clear();
-    }
-    if (triangles_.size() != polygon.size() - 2) divide(polygon);
-    return triangles_;
+    Triangle_soup triangles = filling(polygon);
+    if (triangles.size() != polygon.size() - 2) triangles = fan(polygon);
+    return triangles;
   }
 
 private:
-  using Mesh = CGAL::Surface_mesh<Point>;
-
-  /// \pre `face_` is empty
-  void triangulate(const std::vector<std::uint32_t>& polygon)
+  /// The polygon as a hole to be filled. (As a face to be triangulated it may not touch or cross itself.)
+  Triangle_soup filling(const std::vector<std::uint32_t>& polygon) const
   {
-    triangles_.clear();
-    face_.clear_without_removing_property_maps();
-    std::vector<typename Mesh::Vertex_index> corners;
-    for (const std::uint32_t v : polygon) corners.push_back(face_.add_vertex(points_[v]));
-    if (!CGAL::Polygon_mesh_processing::triangulate_face(face_.add_face(corners), face_)) return;
-    for (const auto f : face_.faces()) {
-      triangles_.emplace_back();
-      std::size_t i = 0;
-      for (const auto v : CGAL::vertices_around_face(face_.halfedge(f), face_)) {
-        if (i == 3) return triangles_.clear();
-        triangles_.back()[i++] = polygon[std::size_t(v)];
-      }
+    std::vector<Point> corners;
+    for (const std::uint32_t v : polygon) corners.push_back(points_[v]);
+    std::vector<CGAL::Triple<int, int, int>> filling;
+    try {
+      CGAL::Polygon_mesh_processing::triangulate_hole_polyline(corners, std::back_inserter(filling));
+    } catch (const std::exception&) { // of what CGAL asserts
+      return {};
     }
+    Triangle_soup triangles;
+    for (const auto& t : filling)
+      triangles.push_back({polygon[std::size_t(t.first)], polygon[std::size_t(t.second)], polygon[std::size_t(t.third)]});
+    return triangles;
   }
 
-  void divide(const std::vector<std::uint32_t>& polygon)
+  static Triangle_soup fan(const std::vector<std::uint32_t>& polygon)
   {
-    triangles_.clear();
-    for (std::size_t i = 2; i < polygon.size(); ++i) triangles_.push_back({polygon[0], polygon[i - 1], polygon[i]});
+    Triangle_soup triangles;
+    for (std::size_t i = 2; i < polygon.size(); ++i) triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
+    return triangles;
   }
 
   const std::vector<Point>& points_;
-  Mesh face_; // kept, as its making takes long
-  Triangle_soup triangles_;
 };
 
 } // namespace internal
