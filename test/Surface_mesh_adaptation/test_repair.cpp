@@ -148,7 +148,8 @@ TEST(Repair, welds_patches_of_any_kind)
 {
   std::mt19937 random(1);
   for (int trial = 0; trial < 20; ++trial)
-    for (const Soup& soup : {shapes::sphere(2), shapes::torus(12, 7), shapes::square(6), shapes::open_cylinder(9, 4, 1)}) {
+    for (const Soup& soup :
+         {shapes::sphere(2), shapes::torus(12, 7), shapes::square(6), shapes::open_cylinder(9, 4, 1)}) {
       const std::size_t n = soup.triangles.size();
       Input input = unwelded(soup, random_classes(n, trial == 0 ? n : 1 + random() % 5, random));
       const Repaired r = repaired(input);
@@ -223,7 +224,8 @@ TEST(Repair, does_not_weld_three_sheets_that_meet)
   Input input;
   for (int sheet = 0; sheet < 3; ++sheet) {
     const std::size_t i = input.points.size();
-    input.points.insert(input.points.end(), {Point(0, 0, 0), Point(0, 0, 1), Point(std::cos(2 * sheet), std::sin(2 * sheet), 0)});
+    const Point tip(std::cos(2 * sheet), std::sin(2 * sheet), 0);
+    input.points.insert(input.points.end(), {Point(0, 0, 0), Point(0, 0, 1), tip});
     input.polygons.push_back({i, i + 1, i + 2});
   }
   const Repaired r = repaired(input);
@@ -311,7 +313,8 @@ std::vector<double> signs_of_volumes(const Repaired& r, std::size_t spheres)
   const std::size_t n = r.soup.triangles.size() / spheres;
   for (std::size_t i = 0; i < spheres; ++i) {
     Soup sphere = r.soup;
-    sphere.triangles.assign(r.soup.triangles.begin() + std::ptrdiff_t(i * n), r.soup.triangles.begin() + std::ptrdiff_t((i + 1) * n));
+    const auto first = r.soup.triangles.begin() + std::ptrdiff_t(i * n);
+    sphere.triangles.assign(first, first + std::ptrdiff_t(n));
     volumes[i] = volume(sphere) > 0 ? 1 : -1;
   }
   return volumes;
@@ -488,7 +491,8 @@ TEST(Repair, removes_faces_without_area)
 {
   Soup soup = shapes::square(4);
   // a vertex in the middle of an edge of one face only, the other side closed by a face without area
-  const Index a = soup.triangles[0][0], b = soup.triangles[0][1], c = soup.triangles[0][2], m = Index(soup.points.size());
+  const auto [a, b, c] = soup.triangles[0];
+  const auto m = Index(soup.points.size());
   soup.points.push_back((soup.points[a] + soup.points[b]) / 2);
   soup.triangles[0] = {a, m, c};
   soup.triangles.push_back({m, b, c});
@@ -505,7 +509,8 @@ TEST(Repair, removes_faces_without_area)
 TEST(Repair, says_if_nothing_is_left)
 {
   Mesh mesh;
-  EXPECT_THROW(SMA::repair_polygon_soup_to_triangle_mesh(std::vector<Point>(), Polygons(), mesh), SMA::Empty_mesh_error);
+  EXPECT_THROW(SMA::repair_polygon_soup_to_triangle_mesh(std::vector<Point>(), Polygons(), mesh),
+               SMA::Empty_mesh_error);
   const std::vector<Point> line = {Point(0, 0, 0), Point(1, 0, 0), Point(2, 0, 0)};
   EXPECT_THROW(SMA::repair_polygon_soup_to_triangle_mesh(line, Polygons{{0, 1, 2}}, mesh), SMA::Empty_mesh_error);
   EXPECT_THROW(SMA::repair_polygon_soup_to_triangle_mesh(line, Polygons{{0, 1, 5}}, mesh), SMA::Empty_mesh_error);

@@ -35,8 +35,10 @@ public:
   {
     read_header();
     const std::size_t vertices = count("the number of vertices", 6);
+    const bool is_broken = at_end_of_line();
     const std::size_t faces = count("the number of faces", 2);
-    skip_number_of_edges();
+    if (is_broken || !at_end_of_line() || words_in_line() == 1) // it may be missing
+      number<long long>("the number of edges");
     read_points(vertices);
     read_polygons(faces);
     return std::move(soup_);
@@ -167,11 +169,6 @@ private:
     return std::size_t(n);
   }
 
-  void skip_number_of_edges()
-  {
-    if (!at_end_of_line()) number<long long>("the number of edges");
-  }
-
   /// What follows three coordinates in the first line is taken for a column of the file, and left out.
   void read_points(std::size_t n)
   {
@@ -181,11 +178,13 @@ private:
     }
     soup_.points.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
-      const auto x = number<double>("a coordinate"), y = number<double>("a coordinate"), z = number<double>("a coordinate");
+      const double x = coordinate(), y = coordinate(), z = coordinate();
       soup_.points.emplace_back(x, y, z);
       if (has_more_columns_) skip_line();
     }
   }
+
+  double coordinate() { return number<double>("a coordinate"); }
 
   void read_polygons(std::size_t n)
   {

@@ -197,8 +197,14 @@ private:
     if (is_swapped) std::reverse(bytes.begin(), bytes.begin() + std::ptrdiff_t(type.size));
     const char* const b = bytes.data();
     if (type.kind == 'f') return type.size == 4 ? double(read<float>(b)) : read<double>(b);
-    if (type.kind == 'u') return type.size == 1 ? read<std::uint8_t>(b) : type.size == 2 ? read<std::uint16_t>(b) : read<std::uint32_t>(b);
-    return type.size == 1 ? read<std::int8_t>(b) : type.size == 2 ? read<std::int16_t>(b) : read<std::int32_t>(b);
+    if (type.kind == 'u') return integer<std::uint8_t, std::uint16_t, std::uint32_t>(b, type.size);
+    return integer<std::int8_t, std::int16_t, std::int32_t>(b, type.size);
+  }
+
+  template <class One, class Two, class Four>
+  static double integer(const char* bytes, std::size_t size)
+  {
+    return size == 1 ? read<One>(bytes) : size == 2 ? read<Two>(bytes) : double(read<Four>(bytes));
   }
 
   static bool is_little_endian()

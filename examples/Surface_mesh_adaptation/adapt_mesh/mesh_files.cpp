@@ -13,6 +13,7 @@
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/face_graph.h>
 
+#include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 
 #include <algorithm>
@@ -114,7 +115,7 @@ double shortest_edge(const Mesh& mesh)
 {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Edge e : mesh.edges())
-    shortest = (std::min)(shortest, CGAL::squared_distance(mesh.point(mesh.vertex(e, 0)), mesh.point(mesh.vertex(e, 1))));
+    shortest = (std::min)(shortest, CGAL::Polygon_mesh_processing::squared_edge_length(e, mesh));
   return std::sqrt(shortest);
 }
 
@@ -163,8 +164,8 @@ std::vector<std::string> write_mesh(const std::string& file, const Constrained_m
   const bool success = write_with_cgal(out, format, format == "ply" || (format == "stl" && !is_too_coarse), mesh.mesh);
   if (!success || !out.flush()) throw SMA::Io_error(file, 0, "cannot be written");
   if (!is_too_coarse) return {};
-  return {"the output is text: the single precision of binary stl files would move vertices by more than a hundredth of "
-          "the shortest edge"};
+  return {"the output is text: the single precision of binary stl files would move vertices by more than a hundredth "
+          "of the shortest edge"};
 }
 
 } // namespace adapt_mesh

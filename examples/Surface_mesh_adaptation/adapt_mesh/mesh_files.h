@@ -82,7 +82,7 @@ struct Reading_options
 /// \throws Io_error, Invalid_input_error, Invalid_extent_error, Empty_mesh_error; Bad_input with all that is wrong
 void read_mesh(const std::string& file, Constrained_mesh& result, const Reading_options& options = Reading_options());
 
-/// Reads the mesh from `text`, the content of `file` (which tells the format and is named in errors). The rest as above.
+/// The same with `text`, the content of `file`, which tells the format and is named in errors.
 void parse_mesh(const std::string& text, const std::string& file, Constrained_mesh& result,
                 const Reading_options& options = Reading_options());
 

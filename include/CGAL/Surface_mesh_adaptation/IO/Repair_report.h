@@ -95,7 +95,8 @@ inline std::vector<Described_defect> described_offences(const Repair_report& r)
      "left out, with their faces"},
     {r.invalid_faces, "face has a vertex that does not exist", "faces have a vertex that does not exist", "left out"},
     {r.small_faces, "face has fewer than three corners", "faces have fewer than three corners", "left out"},
-    {r.repeating_faces, "face has the same vertex twice", "faces have the same vertex twice", "divided there or left out"},
+    {r.repeating_faces, "face has the same vertex twice", "faces have the same vertex twice",
+     "divided there or left out"},
     {r.duplicate_faces, "face has the same corners as another", "faces have the same corners as another", "left out"},
     {r.non_manifold_edges, "edge has more than two faces", "edges have more than two faces", "cut apart"},
     {r.non_manifold_vertices, "vertex has faces that form no single fan or cannot be oriented alike",
@@ -108,17 +109,25 @@ inline std::vector<Described_defect> described_changes(const Repair_report& r)
   return {
     {r.polygons, "face has more than three corners", "faces have more than three corners", "triangulated"},
     {r.isolated_points, "vertex has no face", "vertices have no face", "left out"},
-    {r.welded_points, "vertex is at the place of another along a seam", "vertices are at the places of others along seams",
-     "welded"},
+    {r.welded_points, "vertex is at the place of another along a seam",
+     "vertices are at the places of others along seams", "welded"},
   };
 }
 
 inline std::string turned(const Repair_report& r)
 {
-  const Described_defect faces = {r.turned_faces, "face looked the wrong way", "faces looked the wrong way", "turned over"};
+  const Described_defect faces = {r.turned_faces, "face looked the wrong way", "faces looked the wrong way",
+                                  "turned over"};
   const std::string components =
     r.turned_components == 1 ? ", in 1 component" : ", in " + std::to_string(r.turned_components) + " components";
   return faces.repair() + components;
+}
+
+inline std::string open(const Repair_report& r)
+{
+  return Described_defect{r.open_seams, "edge is at the place of others and was not joined to them",
+                          "edges are at the places of others and were not joined to them", ""}
+    .problem();
 }
 
 inline std::string degenerate(const Repair_report& r)
@@ -151,10 +160,7 @@ inline std::vector<std::string> Repair_report::warnings() const
   std::vector<std::string> sentences;
   for (const auto& d : internal::described_changes(*this))
     if (d.defect.count > 0) sentences.push_back(d.repair());
-  if (open_seams.count > 0)
-    sentences.push_back(internal::Described_defect{open_seams, "edge is at the place of others and was not joined to them",
-                                                   "edges are at the places of others and were not joined to them", ""}
-                          .problem());
+  if (open_seams.count > 0) sentences.push_back(internal::open(*this));
   if (turned_faces.count > 0) sentences.push_back(internal::turned(*this));
   if (degenerate_faces.count > removed_degenerate_faces)
     sentences.push_back(internal::degenerate(*this) + (removed_degenerate_faces > 0 ? ": some are left" : ""));

@@ -48,8 +48,8 @@ private:
       return {};
     }
     Triangle_soup triangles;
-    for (const auto& t : filling)
-      triangles.push_back({polygon[std::size_t(t.first)], polygon[std::size_t(t.second)], polygon[std::size_t(t.third)]});
+    const auto corner = [&](int i) { return polygon[std::size_t(i)]; };
+    for (const auto& t : filling) triangles.push_back({corner(t.first), corner(t.second), corner(t.third)});
     return triangles;
   }
 
