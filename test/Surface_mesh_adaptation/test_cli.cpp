@@ -536,6 +536,27 @@ TEST_F(Adapt_mesh, repairs_if_asked_to_and_says_what)
   expect_failure(3, "in.off out.off --size 0.2 --repair", "no face");
 }
 
+TEST_F(Adapt_mesh, takes_metrics_for_vertices_that_are_cut_apart)
+{
+  Soup soup = sphere_; // and its mirror image, which touches it
+  const auto n = shapes::Index(sphere_.points.size());
+  const auto top = shapes::Index(std::max_element(sphere_.points.begin(), sphere_.points.end(), [](auto& p, auto& q) {
+    return p[2] < q[2];
+  }) - sphere_.points.begin());
+  for (Vector_3 p : sphere_.points) soup.points.emplace_back(p[0], p[1], 2 * sphere_.points[top][2] - p[2]);
+  for (auto t : sphere_.triangles) {
+    for (auto& v : t) v = v == top ? top : v + n;
+    soup.triangles.push_back({t[0], t[2], t[1]});
+  }
+  write(path("in.off"), off(soup));
+  SMA::Medit_solution sizes;
+  sizes.values.assign(soup.points.size(), 0.2);
+  SMA::write_medit_solution(path("sizes.sol").string(), sizes);
+  expect_failure(3, "in.off out.off --metric sizes.sol", "1 vertex has faces that form no single fan");
+  expect_success("in.off out.off --metric sizes.sol --repair");
+  EXPECT_EQ(checks::topology(read(path("out.off"))).components, 2u);
+}
+
 TEST_F(Adapt_mesh, triangulates_polygons_with_a_warning)
 {
   write(path("in.off"), "OFF\n8 6 12\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n"

@@ -62,6 +62,16 @@ void append(std::vector<std::string>& all, const std::string& file, const std::v
   for (const std::string& s : sentences) all.push_back(file + ": " + s);
 }
 
+/// A point that was cut apart has several vertices.
+void number_points(const std::vector<std::size_t>& point_of_vertex, Constrained_mesh& result)
+{
+  for (const Vertex v : result.mesh.vertices()) {
+    Vertex& first = result.vertex_of_point[point_of_vertex[v]];
+    if (first == Mesh::null_vertex()) first = v;
+    else result.copies.emplace_back(v, first);
+  }
+}
+
 void parse_polygons(const std::string& text, const std::string& file, Constrained_mesh& result,
                     const Reading_options& options)
 {
@@ -71,8 +81,7 @@ void parse_polygons(const std::string& text, const std::string& file, Constraine
   const SMA::Repair_report report = repair.build(result.mesh, {options.weld, options.repair});
   if (!options.repair && !report.is_valid())
     throw Bad_input(file + ": " + joined(report.offences()) + "; --repair mends this");
-  for (std::size_t i = report.point_of_vertex.size(); i-- > 0;) // a copy comes later than its original
-    result.vertex_of_point[report.point_of_vertex[i]] = Vertex(Mesh::size_type(i));
+  number_points(report.point_of_vertex, result);
   append(result.repairs, file, report.repairs());
   append(result.warnings, file, report.warnings());
   if (!soup.lost.empty()) result.warnings.push_back(file + ": not kept: " + joined(soup.lost));

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace adapt_mesh {
@@ -36,6 +37,7 @@ struct Constrained_mesh
   Mesh::Property_map<Edge, bool> edge_is_constrained;
   Mesh::Property_map<Vertex, bool> vertex_is_constrained;
   std::vector<Vertex> vertex_of_point; ///< the vertex of each point of the file, `null_vertex()` if not used
+  std::vector<std::pair<Vertex, Vertex>> copies; ///< vertices that a repair has made, and of which others
   std::vector<std::string> repairs;    ///< what was mended, one sentence each
   std::vector<std::string> warnings;   ///< what a user may not expect
 

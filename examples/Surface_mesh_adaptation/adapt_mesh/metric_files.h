@@ -52,6 +52,7 @@ inline Mesh::Property_map<Vertex, double> scalar_map(const SMA::Medit_field& fie
   auto map = mesh.mesh.add_property_map<Vertex, double>("v:field").first;
   for (std::size_t i = 0; i < mesh.vertex_of_point.size(); ++i)
     if (mesh.vertex_of_point[i] != Mesh::null_vertex()) put(map, mesh.vertex_of_point[i], field.values[i]);
+  for (const auto& [copy, original] : mesh.copies) put(map, copy, get(map, original));
   return map;
 }
 
@@ -67,6 +68,7 @@ Mesh::Property_map<Vertex, Value> metric_map(Constrained_mesh& mesh, const Size_
     if (!is_valid_metric(value)) throw SMA::Invalid_metric_error(i);
     if (mesh.vertex_of_point[i] != Mesh::null_vertex()) put(map, mesh.vertex_of_point[i], bounds.clamped(value));
   }
+  for (const auto& [copy, original] : mesh.copies) put(map, copy, get(map, original));
   return map;
 }
 
