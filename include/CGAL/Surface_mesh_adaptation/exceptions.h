@@ -159,11 +159,11 @@ public:
     , estimate_(e)
   {}
 
-  /// The mesh has more faces itself than can be numbered.
-  Mesh_too_large_error(std::size_t faces, std::size_t largest)
-    : Adaptation_error("the mesh has " + std::to_string(faces) + " faces, and no more than " + std::to_string(largest) +
-                       " can be numbered")
-    , estimate_{double(faces) / 2, largest / 2, 0, 0}
+  /// The mesh itself has more elements than can be numbered.
+  Mesh_too_large_error(std::size_t elements, std::size_t largest)
+    : Adaptation_error("the mesh has " + std::to_string(elements) + " elements of a kind, and no more than " +
+                       std::to_string(largest) + " can be numbered")
+    , estimate_{double(elements), largest, 0, 0}
   {}
 
   const Estimate& estimate() const { return estimate_; }
