@@ -12,10 +12,13 @@
 #include <CGAL/Surface_mesh_adaptation/Reference_surface.h>
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
 
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
+#include <random>
 #include <numeric>
 
 namespace {
@@ -610,12 +613,16 @@ void expect_normalized(double max_anisotropy)
 TEST(Normalization, of_sizes_meets_the_number_the_bounds_and_the_gradation) { expect_normalized<double>(1); }
 TEST(Normalization, of_tensors_meets_the_number_the_bounds_and_the_gradation) { expect_normalized<Metric_tensor_3>(100); }
 
-TEST(Normalization, of_nothing_is_the_largest_size)
+TEST(Normalization, of_nothing_is_uniform)
 {
   const Soup soup = shapes::sphere(2);
   const Reference r = reference(soup);
   const SMA::Scalable_metric metric{Tensors(soup.points.size(), zero), SMA::Size_bounds(0.1, 0.7)};
-  for (const double h : SMA::normalize_to_vertex_count<double>(sequential, r.mesh, r.points, r.normals, metric, 1000))
+  const auto sizes = SMA::normalize_to_vertex_count<double>(sequential, r.mesh, r.points, r.normals, metric, 1000);
+  for (const double h : sizes) EXPECT_DOUBLE_EQ(h, sizes[0]);
+  const auto complexity = SMA::complexity(sequential, r.mesh, r.points, r.normals, sizes);
+  EXPECT_NEAR(SMA::expected_number_of_vertices(sequential, r.mesh, complexity), 1000, 15);
+  for (const double h : SMA::normalize_to_vertex_count<double>(sequential, r.mesh, r.points, r.normals, metric, 10))
     EXPECT_NEAR(h, 0.7, 1e-12);
   EXPECT_THROW(SMA::normalize_to_vertex_count<double>(sequential, r.mesh, r.points, r.normals, metric, nan),
                SMA::Invalid_parameter_error);
@@ -644,6 +651,27 @@ Tensors graded(const Reference& r, Tensors tensors, double ratio = 1.5)
 {
   apply_gradation(sequential, r.mesh, r.points, r.normals, ratio, tensors);
   return tensors;
+}
+
+TEST(Anisotropic_gradation, asks_for_no_size_below_half_of_the_smallest)
+{
+  const Reference r = reference(shapes::torus(40, 16, 0.3));
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> angle(0, 6.28), exponent(-3, 0);
+  Tensors tensors; // long and thin, in any direction
+  for (Index v = 0; v < r.points.size(); ++v) {
+    const Vector_3 n = r.normals.at(r.mesh.outgoing[v]);
+    const Eigen::AngleAxisd turn(angle(random), n);
+    const double size = std::pow(10, exponent(random));
+    const Matrix_3 axes = (turn * Eigen::Quaterniond::FromTwoVectors(Vector_3(0, 0, 1), n)).toRotationMatrix();
+    tensors.push_back(SMA::metric_tensor(Vector_3(1 / (size * size), 1e-2, 1), axes));
+  }
+  const auto largest = [](const Tensors& all) {
+    double value = 0;
+    for (const Metric_tensor_3& m : all) value = std::max(value, SMA::eigen_decomposition(m).values[2]);
+    return value;
+  };
+  EXPECT_LE(largest(graded(r, tensors)), 4 * largest(tensors));
 }
 
 TEST(Anisotropic_gradation, bounds_the_shock_of_every_edge)
@@ -1047,12 +1075,16 @@ TEST(Analytic_metric_field, of_a_thin_layer_gives_the_same_bits_with_every_polic
   });
 }
 
-TEST(Solution_metric_field, of_a_constant_asks_for_the_largest_size)
+TEST(Solution_metric_field, of_a_constant_is_uniform)
 {
   Mesh mesh = shapes::mesh<Mesh>(shapes::torus(40, 16, 0.2));
   auto field = solution_field(mesh, [](const Vector_3&) { return 3.7; }, 1000);
   field.hmax = 0.25;
-  for (const double h : vertex_metric<double>(mesh, field)) EXPECT_NEAR(h, 0.25, 1e-12);
+  const auto sizes = vertex_metric<double>(mesh, field);
+  for (const double h : sizes) EXPECT_DOUBLE_EQ(h, sizes[0]);
+  EXPECT_LT(sizes[0], field.hmax);
+  SMA::adapt_surface_mesh(mesh, field);
+  EXPECT_NEAR(double(mesh.number_of_vertices()), 1000, 100);
 }
 
 TEST(Solution_metric_field, reports_the_vertex_of_the_input_with_a_bad_value)

@@ -117,13 +117,14 @@ private:
 
   static double largest_eigenvalue(const Metric_tensor_3& m) { return eigen_decomposition(m).values[2]; }
 
-  /// `m` with sizes that are not below the smallest one that was asked for. Where tensors meet in other directions each
-  /// time, as on needles whose normals say little, their intersections would become smaller without end.
+  /// `m`, or the smallest size that was asked for in all directions, where `m` asks for less than half of it. Where
+  /// tensors meet in other directions each time, as on needles whose normals say little, their intersections would
+  /// become smaller without end.
   Metric_tensor_3 bounded(const Metric_tensor_3& m) const
   {
-    if (m.matrix().trace() <= largest_) return m;
-    const Eigen_decomposition_3 e = eigen_decomposition(m);
-    return e.values[2] <= largest_ ? m : metric_tensor(e.values.cwiseMin(largest_), e.vectors);
+    constexpr double excess = 4; // of an inverse squared size
+    if (m.matrix().trace() <= excess * largest_ || largest_eigenvalue(m) <= excess * largest_) return m;
+    return Metric_tensor_3(largest_, 0, largest_, 0, 0, largest_);
   }
 
   /// Adds the tensor of the other end of an edge, carried to this one and with its sizes grown by its length of the

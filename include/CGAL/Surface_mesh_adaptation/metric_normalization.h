@@ -205,8 +205,8 @@ std::vector<double> isotropic_sizes(const Execution& execution, const Mesh_view&
   return sizes;
 }
 
-/// Tensors that meet in ever other directions, as on needles, may come out of the gradation smaller in all of them than
-/// the isotropic sizes that give each what it asks for. These take their place then.
+/// Tensors that meet in ever other directions, as on needles, may come out of the gradation asking for more vertices
+/// than the isotropic sizes that give each what it asks for. These take their place then.
 template <class Execution>
 void grade(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
            const Corner_normals& normals, double ratio, std::vector<Metric_tensor_3>& tensors)
