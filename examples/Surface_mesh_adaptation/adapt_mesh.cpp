@@ -108,7 +108,9 @@ void run(const Options& options)
   outputs.write(mesh, output_metric, report);
   if (!progress.go_on()) throw std::runtime_error("interrupted, nothing was written");
   outputs.commit();
-  if (!options.quiet) print_summary(report, input, mesh.mesh);
+  if (options.quiet) return;
+  print_warnings(report);
+  print_summary(report, input, mesh.mesh);
 }
 
 Exit_status guarded_main(int argc, char* argv[])
