@@ -16,6 +16,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -565,6 +566,88 @@ TEST_F(Adapt_mesh, triangulates_polygons_with_a_warning)
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_NE(r.err.find("6 faces have more than three corners"), std::string::npos) << r.err;
   EXPECT_NEAR(checks::area(read(path("out.off"))), 6, 1e-9);
+}
+
+TEST_F(Adapt_mesh, reads_medit_files_by_the_same_rules)
+{
+  SMA::Medit_mesh m; // a cube
+  m.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+  m.quadrilaterals = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  const auto write_file = [&](const std::string& more = "") {
+    m.point_references.assign(m.points.size(), 0);
+    m.triangle_references.assign(m.triangles.size(), 0);
+    m.quadrilateral_references.assign(m.quadrilaterals.size(), 0);
+    m.edge_references.assign(m.edges.size(), 0);
+    std::string text = SMA::print_medit_mesh(m);
+    write(path("in.mesh"), text.insert(text.rfind("End"), more));
+  };
+  const auto expect_warning = [&](const std::string& options, const std::string& warning) {
+    write_file();
+    const Outcome r = run("in.mesh out.mesh --size 0.2" + options);
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_NE(r.err.find("warning: in.mesh: " + warning), std::string::npos) << r.err;
+  };
+  expect_warning("", "6 faces have more than three corners (first: face 0): triangulated");
+  EXPECT_NEAR(checks::area(read(path("out.mesh"))), 6, 1e-9);
+  EXPECT_EQ(checks::topology(read(path("out.mesh"))).euler_characteristic, 2);
+  std::swap(m.quadrilaterals[2][1], m.quadrilaterals[2][3]);
+  expect_warning("", "1 face looked the wrong way (first: face 2)");
+
+  m.points.push_back({9, 9, 9}); // inside a volume, or not
+  expect_warning("", "1 vertex has no face (first: vertex 8)");
+  m.required_vertices = {8};
+  write_file();
+  expect_failure(3, "in.mesh out.off --size 0.2", "1 marked vertex has no face (first: vertex 8); --repair mends this");
+  write_file("Tetrahedra\n1\n1 2 3 9 0\n");
+  const Outcome volume = run("in.mesh out.mesh --size 0.2");
+  EXPECT_EQ(volume.status, 0) << volume.err;
+  EXPECT_EQ(volume.err.find("vertex 8"), std::string::npos) << volume.err;
+  EXPECT_NE(volume.err.find("not kept: the section Tetrahedra"), std::string::npos) << volume.err;
+
+  m.edges = {{0, 1}, {0, 8}, {1, 5}};
+  m.ridges = {0, 1};
+  m.required_edges = {2};
+  m.triangles = {{0, 1, 1}};
+  write_file();
+  for (const std::string offence : {"1 face has the same vertex twice (first: face 0); ",
+                                    "1 marked edge is not an edge of a face (first: edge 1); "})
+    expect_failure(3, "in.mesh out.off --size 0.2", offence);
+  const Outcome mended = run("in.mesh out.mesh --size 0.2 --no-features --flat --repair");
+  EXPECT_NE(mended.out.find("repaired  in.mesh: 1 marked edge"), std::string::npos) << mended.out << mended.err;
+  const SMA::Medit_mesh out = SMA::read_medit_mesh(path("out.mesh").string());
+  double length = 0;
+  for (const auto r : out.ridges) {
+    const auto &p = out.points[out.edges[r][0]], &q = out.points[out.edges[r][1]];
+    length += std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  }
+  EXPECT_NEAR(length, 2, 1e-9);
+}
+
+TEST_F(Adapt_mesh, welds_medit_files_only_if_they_are_repaired_and_keeps_their_marks)
+{
+  SMA::Medit_mesh m; // two triangles of a square, with ridges at the seam, on either side, and a corner at one
+  m.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
+  m.point_references.assign(6, 0);
+  m.triangles = {{0, 1, 2}, {3, 4, 5}};
+  m.triangle_references = {0, 0};
+  m.edges = {{4, 3}};
+  m.edge_references = {0};
+  m.ridges = {0};
+  m.corners = {4};
+  SMA::write_medit_mesh(path("in.mesh").string(), m);
+  const auto expect_result = [&](const std::string& options, std::size_t cycles, std::size_t ridges) {
+    SCOPED_TRACE(options);
+    const Outcome r = run("in.mesh out.mesh --size 2 --no-features " + options);
+    ASSERT_EQ(r.status, 0) << r.err;
+    const SMA::Medit_mesh out = SMA::read_medit_mesh(path("out.mesh").string());
+    EXPECT_EQ(checks::topology(read(path("out.mesh"))).boundary_cycles, cycles);
+    EXPECT_EQ(out.ridges.size(), ridges);
+    ASSERT_EQ(out.corners.size(), 1u);
+    EXPECT_EQ(out.points[out.corners[0]], (std::array<double, 3>{1, 0, 0}));
+  };
+  expect_result("", 2, 6); // with the boundary
+  expect_result("--repair", 1, 5);
+  expect_result("--repair --no-weld", 2, 6);
 }
 
 TEST_F(Adapt_mesh, welds_seams_unless_told_not_to)
