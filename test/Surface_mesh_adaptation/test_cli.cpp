@@ -519,6 +519,18 @@ TEST_F(Adapt_mesh, names_all_that_is_wrong_at_once)
   expect_failure(3, "bad.off out.off --size 0.2", "a vertex that does not exist");
 }
 
+TEST_F(Adapt_mesh, refuses_sizes_that_ask_for_too_many_vertices)
+{
+  write(path("cube.off"), off(shapes::cube(1)));
+  expect_failure(2, "cube.off out.off --size 1e-9", "the metric asks for about ");
+  expect_failure(2, "cube.off out.off --size 1e-9", "; check --size or raise --max-vertices");
+  expect_failure(2, "in.off out.off --size 0.1 --max-vertices 100", "and 100 are possible");
+  expect_failure(2, "in.off out.off --curvature 1e-5 --max-vertices 100", "check --curvature");
+  for (const std::string n : {"0", "-1", "1.5", "many"})
+    expect_failure(2, "in.off out.off --size 0.1 --max-vertices=" + n, "max-vertices");
+  expect_success("in.off out.off --size 0.1 --max-vertices 10000");
+}
+
 // What is mended
 
 TEST_F(Adapt_mesh, repairs_if_asked_to_and_says_what)
