@@ -18,15 +18,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -104,6 +108,31 @@ protected:
     const std::string command = "cd '" + folder_.string() + "' && '" ADAPT_MESH "' " + arguments + " >.out 2>.err";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(path(".out")), content(path(".err"))};
+  }
+
+  /// Starts the program in the folder of the test. Returns its process.
+  pid_t start(std::vector<std::string> arguments) const
+  {
+    write(path(".err"), "");
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    std::vector<char*> argv = {const_cast<char*>("adapt_mesh")};
+    for (std::string& a : arguments) argv.push_back(a.data());
+    argv.push_back(nullptr);
+    if (::chdir(folder_.c_str()) == 0 && std::freopen(".out", "w", stdout) && std::freopen(".err", "w", stderr))
+      ::execv(ADAPT_MESH, argv.data());
+    ::_exit(127);
+  }
+
+  /// The exit status of a process, which is killed if it does not end; -1 if a signal ended it.
+  static int status_within_a_minute(pid_t process)
+  {
+    int status = 0;
+    for (int i = 0; i < 6000; ++i, ::usleep(10000))
+      if (::waitpid(process, &status, WNOHANG) == process) return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    ::kill(process, SIGKILL);
+    ::waitpid(process, &status, 0);
+    return -1;
   }
 
   std::set<std::string> files() const
@@ -801,6 +830,27 @@ TEST_F(Adapt_mesh, warns_on_stderr_unless_it_is_to_be_quiet)
   EXPECT_EQ(r.out.find("warning"), std::string::npos) << r.out;
   EXPECT_NE(content(path("out.json")).find("\"warnings\": [\"in.off: 1 vertex has no face"), std::string::npos);
   EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(Adapt_mesh, obeys_signals_and_leaves_nothing)
+{
+  const auto before = files();
+  const auto expect_end = [&](int signal, const std::string& size, const auto& is_due) {
+    const pid_t program = start({"in.off", "out.off", "--report", "out.json", "--size", size});
+    while (!is_due()) ::usleep(200);
+    ::kill(program, signal);
+    EXPECT_EQ(status_within_a_minute(program), 1);
+    EXPECT_NE(content(path(".err")).find("adapt_mesh: interrupted, nothing was written\n"), std::string::npos);
+    EXPECT_EQ(files(), before);
+  };
+  const auto has_begun = [&] { return content(path(".err")).find("round 1/") != std::string::npos; };
+  const auto is_writing = [&] {
+    for (const auto& f : files())
+      if (std::error_code gone; f.find(".partial-") != std::string::npos && fs::file_size(f, gone) > 0 && !gone) return true;
+    return false;
+  };
+  for (const int signal : {SIGINT, SIGTERM}) expect_end(signal, "0.0037", has_begun); // to a million vertices
+  expect_end(SIGTERM, "0.01", is_writing);
 }
 
 TEST_F(Adapt_mesh, finds_the_meshes_of_cgal_by_name)
