@@ -3,6 +3,7 @@
 // Adapts a surface mesh to a metric: `adapt_mesh INPUT OUTPUT --size H` and the like, see `adapt_mesh --help`.
 
 #include "adapt_mesh/Bad_input.h"
+#include "adapt_mesh/Interrupts.h"
 #include "adapt_mesh/Output_file.h"
 #include "adapt_mesh/Progress.h"
 #include "adapt_mesh/adapt.h"
@@ -22,7 +23,6 @@
 #include <iostream>
 #include <new>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -90,6 +90,7 @@ void run(const Options& options)
 {
   check_files(options);
   check_execution(options);
+  Interrupts interrupts;
   Outputs outputs(options);
   Progress progress(options.quiet, options.verbose);
 
@@ -106,9 +107,12 @@ void run(const Options& options)
   append(report.repairs, mesh.repairs);
   append(report.warnings, mesh.warnings);
   outputs.write(mesh, output_metric, report);
-  if (!progress.go_on()) throw std::runtime_error("interrupted, nothing was written");
+  interrupts.ignore();
   outputs.commit();
-  if (!options.quiet) print_summary(report, input, mesh.mesh);
+  interrupts.end();
+  if (options.quiet) return;
+  print_warnings(report);
+  print_summary(report, input, mesh.mesh);
 }
 
 Exit_status guarded_main(int argc, char* argv[])

@@ -32,6 +32,8 @@ inline Medit_mesh random_mesh(shapes::Random& random, std::uint32_t n)
   for (std::uint32_t i = 0; i + 2 < n; ++i) {
     m.triangles.push_back({i, i + 1, i + 2});
     m.triangle_references.push_back(int(i));
+    m.quadrilaterals.push_back({i + 2, i, i + 1, 0});
+    m.quadrilateral_references.push_back(7 - int(i));
     m.edges.push_back({i, i + 1});
     m.edge_references.push_back(-int(i));
   }
@@ -48,6 +50,8 @@ inline void expect_equal(const Medit_mesh& a, const Medit_mesh& b)
   EXPECT_EQ(a.point_references, b.point_references);
   EXPECT_EQ(a.triangles, b.triangles);
   EXPECT_EQ(a.triangle_references, b.triangle_references);
+  EXPECT_EQ(a.quadrilaterals, b.quadrilaterals);
+  EXPECT_EQ(a.quadrilateral_references, b.quadrilateral_references);
   EXPECT_EQ(a.edges, b.edges);
   EXPECT_EQ(a.edge_references, b.edge_references);
   EXPECT_EQ(a.ridges, b.ridges);

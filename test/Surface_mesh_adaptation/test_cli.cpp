@@ -16,16 +16,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include <sys/types.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -103,6 +108,31 @@ protected:
     const std::string command = "cd '" + folder_.string() + "' && '" ADAPT_MESH "' " + arguments + " >.out 2>.err";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(path(".out")), content(path(".err"))};
+  }
+
+  /// Starts the program in the folder of the test. Returns its process.
+  pid_t start(std::vector<std::string> arguments) const
+  {
+    write(path(".err"), "");
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    std::vector<char*> argv = {const_cast<char*>("adapt_mesh")};
+    for (std::string& a : arguments) argv.push_back(a.data());
+    argv.push_back(nullptr);
+    if (::chdir(folder_.c_str()) == 0 && std::freopen(".out", "w", stdout) && std::freopen(".err", "w", stderr))
+      ::execv(ADAPT_MESH, argv.data());
+    ::_exit(127);
+  }
+
+  /// The exit status of a process, which is killed if it does not end; -1 if a signal ended it.
+  static int status_within_a_minute(pid_t process)
+  {
+    int status = 0;
+    for (int i = 0; i < 6000; ++i, ::usleep(10000))
+      if (::waitpid(process, &status, WNOHANG) == process) return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    ::kill(process, SIGKILL);
+    ::waitpid(process, &status, 0);
+    return -1;
   }
 
   std::set<std::string> files() const
@@ -406,7 +436,7 @@ TEST_F(Adapt_mesh, uses_the_field_that_is_meant)
 
   const std::string all = "; there are: 1 vector, 2 scalar, 3 scalar";
   const std::string several = run("in.off out.off --field all.solb --vertices 500").err;
-  EXPECT_EQ(several.find("adapt_mesh: warning: all.solb: field 2 is used" + all + "\n"), 0u) << several;
+  EXPECT_NE(several.find("\nadapt_mesh: warning: all.solb: field 2 is used" + all + "\n"), std::string::npos) << several;
   for (const std::string arguments : {"--metric all.solb --metric-number 3", "--metric one.sol",
                                       "--field all.solb --vertices 500 --field-number 2"}) {
     const Outcome outcome = run("in.off out.off " + arguments);
@@ -518,6 +548,18 @@ TEST_F(Adapt_mesh, names_all_that_is_wrong_at_once)
   expect_failure(3, "bad.off out.off --size 0.2", "a vertex that does not exist");
 }
 
+TEST_F(Adapt_mesh, refuses_sizes_that_ask_for_too_many_vertices)
+{
+  write(path("cube.off"), off(shapes::cube(1)));
+  expect_failure(2, "cube.off out.off --size 1e-9", "the metric asks for about ");
+  expect_failure(2, "cube.off out.off --size 1e-9", "; check --size or raise --max-vertices");
+  expect_failure(2, "in.off out.off --size 0.1 --max-vertices 100", "and 100 are possible");
+  expect_failure(2, "in.off out.off --curvature 1e-5 --max-vertices 100", "check --curvature");
+  for (const std::string n : {"0", "-1", "1.5", "many"})
+    expect_failure(2, "in.off out.off --size 0.1 --max-vertices=" + n, "max-vertices");
+  expect_success("in.off out.off --size 0.1 --max-vertices 10000");
+}
+
 // What is mended
 
 TEST_F(Adapt_mesh, repairs_if_asked_to_and_says_what)
@@ -549,9 +591,9 @@ TEST_F(Adapt_mesh, takes_metrics_for_vertices_that_are_cut_apart)
     soup.triangles.push_back({t[0], t[2], t[1]});
   }
   write(path("in.off"), off(soup));
-  SMA::Medit_solution sizes;
+  SMA::Medit_field sizes;
   sizes.values.assign(soup.points.size(), 0.2);
-  SMA::write_medit_solution(path("sizes.sol").string(), sizes);
+  SMA::write_medit_solution(path("sizes.sol").string(), {sizes});
   expect_failure(3, "in.off out.off --metric sizes.sol", "1 vertex has faces that form no single fan");
   expect_success("in.off out.off --metric sizes.sol --repair");
   EXPECT_EQ(checks::topology(read(path("out.off"))).components, 2u);
@@ -563,8 +605,90 @@ TEST_F(Adapt_mesh, triangulates_polygons_with_a_warning)
                         "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n");
   const Outcome r = run("in.off out.off --size 0.2");
   ASSERT_EQ(r.status, 0) << r.err;
-  EXPECT_NE(r.out.find("6 faces have more than three corners"), std::string::npos) << r.out;
+  EXPECT_NE(r.err.find("6 faces have more than three corners"), std::string::npos) << r.err;
   EXPECT_NEAR(checks::area(read(path("out.off"))), 6, 1e-9);
+}
+
+TEST_F(Adapt_mesh, reads_medit_files_by_the_same_rules)
+{
+  SMA::Medit_mesh m; // a cube
+  m.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+  m.quadrilaterals = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  const auto write_file = [&](const std::string& more = "") {
+    m.point_references.assign(m.points.size(), 0);
+    m.triangle_references.assign(m.triangles.size(), 0);
+    m.quadrilateral_references.assign(m.quadrilaterals.size(), 0);
+    m.edge_references.assign(m.edges.size(), 0);
+    std::string text = SMA::print_medit_mesh(m);
+    write(path("in.mesh"), text.insert(text.rfind("End"), more));
+  };
+  const auto expect_warning = [&](const std::string& options, const std::string& warning) {
+    write_file();
+    const Outcome r = run("in.mesh out.mesh --size 0.2" + options);
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_NE(r.err.find("warning: in.mesh: " + warning), std::string::npos) << r.err;
+  };
+  expect_warning("", "6 faces have more than three corners (first: face 0): triangulated");
+  EXPECT_NEAR(checks::area(read(path("out.mesh"))), 6, 1e-9);
+  EXPECT_EQ(checks::topology(read(path("out.mesh"))).euler_characteristic, 2);
+  std::swap(m.quadrilaterals[2][1], m.quadrilaterals[2][3]);
+  expect_warning("", "1 face looked the wrong way (first: face 2)");
+
+  m.points.push_back({9, 9, 9}); // inside a volume, or not
+  expect_warning("", "1 vertex has no face (first: vertex 8)");
+  m.required_vertices = {8};
+  write_file();
+  expect_failure(3, "in.mesh out.off --size 0.2", "1 marked vertex has no face (first: vertex 8); --repair mends this");
+  write_file("Tetrahedra\n1\n1 2 3 9 0\n");
+  const Outcome volume = run("in.mesh out.mesh --size 0.2");
+  EXPECT_EQ(volume.status, 0) << volume.err;
+  EXPECT_EQ(volume.err.find("vertex 8"), std::string::npos) << volume.err;
+  EXPECT_NE(volume.err.find("not kept: the section Tetrahedra"), std::string::npos) << volume.err;
+
+  m.edges = {{0, 1}, {0, 8}, {1, 5}};
+  m.ridges = {0, 1};
+  m.required_edges = {2};
+  m.triangles = {{0, 1, 1}};
+  write_file();
+  for (const std::string offence : {"1 face has the same vertex twice (first: face 0); ",
+                                    "1 marked edge is not an edge of a face (first: edge 1); "})
+    expect_failure(3, "in.mesh out.off --size 0.2", offence);
+  const Outcome mended = run("in.mesh out.mesh --size 0.2 --no-features --flat --repair");
+  EXPECT_NE(mended.out.find("repaired  in.mesh: 1 marked edge"), std::string::npos) << mended.out << mended.err;
+  const SMA::Medit_mesh out = SMA::read_medit_mesh(path("out.mesh").string());
+  double length = 0;
+  for (const auto r : out.ridges) {
+    const auto &p = out.points[out.edges[r][0]], &q = out.points[out.edges[r][1]];
+    length += std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+  }
+  EXPECT_NEAR(length, 2, 1e-9);
+}
+
+TEST_F(Adapt_mesh, welds_medit_files_only_if_they_are_repaired_and_keeps_their_marks)
+{
+  SMA::Medit_mesh m; // two triangles of a square, with ridges at the seam, on either side, and a corner at one
+  m.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
+  m.point_references.assign(6, 0);
+  m.triangles = {{0, 1, 2}, {3, 4, 5}};
+  m.triangle_references = {0, 0};
+  m.edges = {{4, 3}};
+  m.edge_references = {0};
+  m.ridges = {0};
+  m.corners = {4};
+  SMA::write_medit_mesh(path("in.mesh").string(), m);
+  const auto expect_result = [&](const std::string& options, std::size_t cycles, std::size_t ridges) {
+    SCOPED_TRACE(options);
+    const Outcome r = run("in.mesh out.mesh --size 2 --no-features " + options);
+    ASSERT_EQ(r.status, 0) << r.err;
+    const SMA::Medit_mesh out = SMA::read_medit_mesh(path("out.mesh").string());
+    EXPECT_EQ(checks::topology(read(path("out.mesh"))).boundary_cycles, cycles);
+    EXPECT_EQ(out.ridges.size(), ridges);
+    ASSERT_EQ(out.corners.size(), 1u);
+    EXPECT_EQ(out.points[out.corners[0]], (std::array<double, 3>{1, 0, 0}));
+  };
+  expect_result("", 2, 6); // with the boundary
+  expect_result("--repair", 1, 5);
+  expect_result("--repair --no-weld", 2, 6);
 }
 
 TEST_F(Adapt_mesh, welds_seams_unless_told_not_to)
@@ -582,7 +706,7 @@ TEST_F(Adapt_mesh, welds_seams_unless_told_not_to)
       expect_success("in.off in." + format + " --size 9 --no-weld --quiet"); // only to convert
     }
     const Outcome r = run("in." + format + " out.off --size 0.2");
-    EXPECT_NE(r.out.find("welded"), std::string::npos) << r.out;
+    EXPECT_NE(r.err.find("welded"), std::string::npos) << r.err;
     EXPECT_EQ(checks::topology(read(path("out.off"))).boundary_cycles, 0u);
     expect_success("in." + format + " out.off --size 0.2 --no-weld");
     EXPECT_EQ(checks::topology(read(path("out.off"))).boundary_cycles, 2u);
@@ -595,7 +719,7 @@ TEST_F(Adapt_mesh, turns_what_looks_the_wrong_way)
   for (std::size_t f : {0, 7, 50}) std::swap(soup.triangles[f][0], soup.triangles[f][1]);
   write(path("in.off"), off(soup));
   const Outcome r = run("in.off out.off --size 0.2");
-  EXPECT_NE(r.out.find("3 faces looked the wrong way (first: face 0)"), std::string::npos) << r.out;
+  EXPECT_NE(r.err.find("3 faces looked the wrong way (first: face 0)"), std::string::npos) << r.err;
   EXPECT_GT(checks::least_area(read(path("out.off")), [](const Vector_3& p) { return p; }), 0);
 }
 
@@ -605,7 +729,7 @@ TEST_F(Adapt_mesh, names_what_it_does_not_keep)
     write(path(file), text);
     const Outcome r = run(file + " out.off --size 1");
     EXPECT_EQ(r.status, 0) << r.err;
-    EXPECT_NE(r.out.find("not kept: " + what), std::string::npos) << r.out;
+    EXPECT_NE(r.err.find("not kept: " + what), std::string::npos) << r.err;
   };
   expect_lost("in.off", "COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n0 1 0 0 0 0 255\n3 0 1 2\n", "colours");
   expect_lost("in.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0.5 0.5 0.5\n", "colours of faces");
@@ -628,7 +752,7 @@ TEST_F(Adapt_mesh, writes_stl_as_text_where_single_precision_would_spoil_it)
   for (Vector_3& p : soup.points) p += Vector_3(500000, 5400000, 0);
   write(path("in.off"), off(soup));
   const Outcome r = run("in.off out.stl --size 0.2");
-  EXPECT_NE(r.out.find("single precision"), std::string::npos) << r.out;
+  EXPECT_NE(r.err.find("single precision"), std::string::npos) << r.err;
   EXPECT_EQ(content(path("out.stl")).substr(0, 5), "solid");
   expect_success("in.off out.ply --size 0.2 --quiet");
   const Soup text = read(path("out.stl")), exact = read(path("out.ply"));
@@ -694,6 +818,39 @@ TEST_F(Adapt_mesh, leaves_no_part_of_a_file)
   std::set<std::string> expected;
   for (const char* name : {"in.off", "out.off", "out.json", "out.sol"}) expected.insert(path(name).string());
   EXPECT_EQ(files(), expected);
+}
+
+TEST_F(Adapt_mesh, warns_on_stderr_unless_it_is_to_be_quiet)
+{
+  Soup soup = sphere_;
+  soup.points.emplace_back(9, 9, 9);
+  write(path("in.off"), off(soup));
+  const Outcome r = run("in.off out.off --size 0.2 --report out.json"), quiet = run("in.off out.off --size 0.2 --quiet");
+  EXPECT_NE(r.err.find("\nadapt_mesh: warning: in.off: 1 vertex has no face"), std::string::npos) << r.err;
+  EXPECT_EQ(r.out.find("warning"), std::string::npos) << r.out;
+  EXPECT_NE(content(path("out.json")).find("\"warnings\": [\"in.off: 1 vertex has no face"), std::string::npos);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(Adapt_mesh, obeys_signals_and_leaves_nothing)
+{
+  const auto before = files();
+  const auto expect_end = [&](int signal, const std::string& size, const auto& is_due) {
+    const pid_t program = start({"in.off", "out.off", "--report", "out.json", "--size", size});
+    while (!is_due()) ::usleep(200);
+    ::kill(program, signal);
+    EXPECT_EQ(status_within_a_minute(program), 1);
+    EXPECT_NE(content(path(".err")).find("adapt_mesh: interrupted, nothing was written\n"), std::string::npos);
+    EXPECT_EQ(files(), before);
+  };
+  const auto has_begun = [&] { return content(path(".err")).find("round 1/") != std::string::npos; };
+  const auto is_writing = [&] {
+    for (const auto& f : files())
+      if (std::error_code gone; f.find(".partial-") != std::string::npos && fs::file_size(f, gone) > 0 && !gone) return true;
+    return false;
+  };
+  for (const int signal : {SIGINT, SIGTERM}) expect_end(signal, "0.0037", has_begun); // to a million vertices
+  expect_end(SIGTERM, "0.01", is_writing);
 }
 
 TEST_F(Adapt_mesh, finds_the_meshes_of_cgal_by_name)

@@ -60,9 +60,9 @@ TEST(Medit_mesh, is_read_with_all_its_marks)
                               "RequiredVertices\n1\n3\nEnd\n");
   EXPECT_EQ(m.points, (std::vector<std::array<double, 3>>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
   EXPECT_EQ(m.point_references, (std::vector<int>{1, 2, 3, 4}));
-  EXPECT_EQ(m.triangles, (Medit_mesh::Simplices<3>{{0, 1, 2}, {0, 3, 1}}));
+  EXPECT_EQ(m.triangles, (Medit_mesh::Tuples<3>{{0, 1, 2}, {0, 3, 1}}));
   EXPECT_EQ(m.triangle_references, (std::vector<int>{7, 8}));
-  EXPECT_EQ(m.edges, (Medit_mesh::Simplices<2>{{0, 1}, {1, 2}}));
+  EXPECT_EQ(m.edges, (Medit_mesh::Tuples<2>{{0, 1}, {1, 2}}));
   EXPECT_EQ(m.edge_references, (std::vector<int>{5, 6}));
   EXPECT_EQ(m.ridges, Medit_mesh::Indices{1});
   EXPECT_EQ(m.required_edges, Medit_mesh::Indices{0});
@@ -109,7 +109,7 @@ TEST(Medit_mesh, that_is_malformed_is_refused_with_its_line)
   EXPECT_EQ(mesh_error(header + vertices + "Corners\n1\n\n5\n"), 12u);
   EXPECT_EQ(mesh_error(header + vertices + vertices), 9u);
   EXPECT_EQ(mesh_error(header + vertices + "1 2 3\n"), 9u);
-  EXPECT_EQ(mesh_error(header + vertices + "Quadrilaterals\n1\n1 2 3 4 0\n"), 10u);
+  EXPECT_EQ(mesh_error(header + vertices + "Quadrilaterals\n1\n1 2 3 5 0\n"), 11u); // no vertex 5
 }
 
 TEST(Medit_mesh, that_announces_more_than_it_holds_is_refused_at_once)
@@ -249,6 +249,7 @@ TEST(Medit_conversion, refuses_what_is_no_orientable_manifold)
   const std::string five = "Vertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 -1 0\n";
   refuse(five + "Triangles\n3\n1 2 3 0\n1 2 4 0\n1 2 5 0\n");              // three faces at an edge
   refuse(five + "Triangles\n2\n1 2 3 0\n1 4 5 0\n");                       // two fans at a vertex
+  refuse(five + "Quadrilaterals\n1\n1 2 4 3 0\n");                        // no triangle
   refuse(five + "Triangles\n1\n1 2 2 0\n");                                // a vertex twice
   refuse(five + "Triangles\n1\n1 2 3 0\nEdges\n1\n1 4 0\nRidges\n1\n1\n"); // a ridge that is no edge
   refuse(five + "Triangles\n1\n1 2 3 0\nCorners\n1\n5\n");                 // a corner that is on no face

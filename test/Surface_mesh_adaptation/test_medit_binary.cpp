@@ -133,7 +133,7 @@ TEST(Medit_binary, is_laid_out_as_others_expect)
                                 bytes(6, std::int64_t(160), one, one, two, one, three) + bytes(54, none);
   mesh = parsed(long_form);
   EXPECT_EQ(mesh.point_references, (std::vector<int>{1, -2}));
-  EXPECT_EQ(mesh.triangles, (Medit_mesh::Simplices<3>{{0, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (Medit_mesh::Tuples<3>{{0, 1, 0}}));
   EXPECT_EQ(SMA::print_medit_mesh(mesh, {4}), long_form);
 
   const std::string solution = header + bytes(62, 76, 1, 2, 2, 1, 1., 2., 3., 4.) + bytes(54, 0);
@@ -147,7 +147,7 @@ TEST(Medit_binary, skips_other_sections)
   const std::string tetrahedra = bytes(8, 176, 1, 1, 2, 3, 4, 0), strange = bytes(1234567, 184);
   const Medit_mesh mesh = parsed(header + vertices + tetrahedra + strange + bytes(6, 0, 1, 1, 2, 3, 7));
   EXPECT_EQ(mesh.ignored_sections, (std::vector<std::string>{"Tetrahedra", "1234567"}));
-  EXPECT_EQ(mesh.triangles, (Medit_mesh::Simplices<3>{{0, 1, 2}})) << "the last section may say 0, and End be missing";
+  EXPECT_EQ(mesh.triangles, (Medit_mesh::Tuples<3>{{0, 1, 2}})) << "the last section may say 0, and End be missing";
 }
 
 TEST(Medit_binary, that_is_malformed_is_refused)
@@ -167,7 +167,7 @@ TEST(Medit_binary, that_is_malformed_is_refused)
   expect_error(header + bytes(4, 0, 1, 0., std::numeric_limits<double>::infinity(), 0., 0), "not finite");
   expect_error(header + vertices + bytes(6, 0, 1, 1, 2, 5, 0), "at byte 164: there is no vertex 5");
   expect_error(header + vertices + bytes(6, 0, 1, 0, 2, 3, 0), "at byte 156: the index 0");
-  expect_error(header + vertices + bytes(7, 0, 1, 1, 2, 3, 4, 0), "quadrilaterals");
+  expect_error(header + vertices + bytes(7, 0, 1, 1, 2, 3, 5, 0), "at byte 168: there is no vertex 5");
   expect_error(header + vertices + bytes(14, 0, 1, 1), "there is no edge 1");
   const std::string again = header + vertices + bytes(4, 0, 0);
   expect_error(again, "at byte 144: there is a second section Vertices");

@@ -35,7 +35,7 @@ auto blaming(const std::string& file, const Use& use)
   }
 }
 
-/// As above, where nothing is written: an error of a file is then about the input.
+/// As above, where nothing is written nor adapted: an error of a file, or a size, is then about the input.
 template <class Read>
 auto reading(const std::string& file, const Read& read)
 {
@@ -43,6 +43,8 @@ auto reading(const std::string& file, const Read& read)
     return blaming(file, read);
   } catch (const SMA::Io_error& e) {
     throw Bad_input(e.what());
+  } catch (const SMA::Mesh_too_large_error& e) {
+    throw Bad_input(file + ": " + e.what());
   }
 }
 

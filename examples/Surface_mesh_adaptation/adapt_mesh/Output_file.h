@@ -3,6 +3,8 @@
 #ifndef ADAPT_MESH_OUTPUT_FILE_H
 #define ADAPT_MESH_OUTPUT_FILE_H
 
+#include "Interrupts.h"
+
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 
 #include <filesystem>
@@ -26,6 +28,7 @@ public:
     temporary_ = name_;
     temporary_.replace_filename(name_.stem().string() + ".partial-" + std::to_string(::getpid()) +
                                 name_.extension().string()); // the extension tells the format
+    Interrupts::add_file(temporary_.string());
     if (!std::ofstream(temporary_)) throw error("cannot be written: no such folder, or no permission");
     std::filesystem::remove(temporary_); // it was a trial
   }

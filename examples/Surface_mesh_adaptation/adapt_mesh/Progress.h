@@ -6,7 +6,6 @@
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
 #include <CGAL/Surface_mesh_adaptation/Adaptation_visitor.h>
 
-#include <csignal>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -15,17 +14,13 @@
 
 namespace adapt_mesh {
 
-/// Tells on stderr how far the run is: by a bar on a terminal, else by a line for each round. An interrupt (Ctrl-C)
-/// stops the run at the next phase; a second one ends the program at once.
+/// Tells on stderr how far the run is: by a bar on a terminal, else by a line for each round.
 class Progress : public CGAL::Surface_mesh_adaptation::Adaptation_visitor
 {
 public:
   Progress(bool quiet, bool verbose)
     : quiet_(quiet), verbose_(verbose), bar_(!quiet && !verbose && ::isatty(STDERR_FILENO) != 0)
-  {
-    std::signal(SIGINT, interrupt);
-    std::signal(SIGTERM, interrupt);
-  }
+  {}
 
   void round_begins(std::size_t round, std::size_t rounds)
   {
@@ -48,8 +43,6 @@ public:
                    mesh.vertices, 100 * mesh.in_range);
   }
 
-  bool go_on() const { return interrupted == 0; }
-
   /// Removes the bar.
   void finish() const
   {
@@ -57,12 +50,6 @@ public:
   }
 
 private:
-  static void interrupt(int signal)
-  {
-    interrupted = 1;
-    std::signal(signal, SIG_DFL);
-  }
-
   static void draw_bar(std::size_t done, std::size_t all)
   {
     constexpr std::size_t width = 40;
@@ -70,8 +57,6 @@ private:
     std::fprintf(stderr, "\r[%s%s] %zu of %zu rounds", std::string(filled, '#').c_str(),
                  std::string(width - filled, ' ').c_str(), done, all);
   }
-
-  static inline volatile std::sig_atomic_t interrupted = 0;
 
   bool quiet_;
   bool verbose_;

@@ -11,10 +11,33 @@
 
 #include <CGAL/surface_mesh_adaptation.h>
 
+#include <cstddef>
 #include <functional>
 #include <limits>
+#include <string>
 
 namespace adapt_mesh {
+
+/// The option that says how fine the mesh is to be.
+inline const char* option_of_size(const Options& options)
+{
+  return options.size > 0           ? "--size"
+         : !options.metric.empty()  ? "--metric"
+         : options.vertices > 0     ? "--vertices"
+         : options.curvature > 0    ? "--curvature"
+                                    : "--tolerance";
+}
+
+/// Calls `adapt()`; if there would be too many vertices, says what to do about it. \throws Usage_error
+template <class Adapt>
+SMA::Adaptation_report within_limits(const Options& options, const Adapt& adapt)
+{
+  try {
+    return adapt();
+  } catch (const SMA::Mesh_too_large_error& e) {
+    throw Usage_error(std::string(e.what()) + "; check " + option_of_size(options) + " or raise --max-vertices");
+  }
+}
 
 /// As `adapt.h` says, with a `Reconstruction` between the vertices of the input.
 template <class Reconstruction>
@@ -28,6 +51,7 @@ SMA::Adaptation_report adapt_on(const Options& options, Constrained_mesh& mesh, 
       .feature_angle(options.feature_angle.value_or(SMA::Feature_parameters().ridge_angle))
       .edge_is_constrained_map(mesh.edge_is_constrained)
       .vertex_is_constrained_map(mesh.vertex_is_constrained)
+      .maximum_number_of_vertices(options.max_vertices > 0 ? std::size_t(options.max_vertices) : std::size_t(-1))
       .number_of_iterations(options.rounds > 0 ? unsigned(options.rounds) : SMA::default_number_of_rounds)
       .output_metric_map(output_metric)
       .tolerance(tolerance)
@@ -36,11 +60,11 @@ SMA::Adaptation_report adapt_on(const Options& options, Constrained_mesh& mesh, 
       .shape_weight_of_fit(options.shape_weight.value_or(SMA::default_shape_weight))
       .visitor(std::ref(progress));
   SMA::Adaptation_report report = with_metric_field(options, mesh, [&](const auto& field) {
-    return blaming(options.input, [&] {
-      return with_execution(options, [&](const auto& execution) {
-        return SMA::adapt_surface_mesh(execution, mesh.mesh, field, parameters);
-      });
-    });
+    const auto adapt = [&](const auto& execution) {
+      return SMA::adapt_surface_mesh(execution, mesh.mesh, field, parameters);
+    };
+    return blaming(options.input,
+                   [&] { return within_limits(options, [&] { return with_execution(options, adapt); }); });
   });
   progress.finish();
   return report;

@@ -6,6 +6,8 @@
 #include "mesh_files.h"
 
 #include "Bad_input.h"
+#include "Medit_marks.h"
+#include "medit_soup.h"
 #include "soup_files.h"
 
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
@@ -19,11 +21,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <limits>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,31 +75,78 @@ void number_points(const std::vector<std::size_t>& point_of_vertex, Constrained_
   }
 }
 
+/// Makes the mesh of polygons, and of these what can be made of them. Numbers its vertices.
+SMA::Repair_report build(Polygon_soup& soup, const Reading_options& options, Constrained_mesh& result)
+{
+  result.vertex_of_point.assign(soup.points.size(), Mesh::null_vertex());
+  SMA::internal::Soup_repair<Point> repair(std::move(soup.points), soup.polygons);
+  SMA::Repair_report report = repair.build(result.mesh, {options.weld, options.repair});
+  number_points(report.point_of_vertex, result);
+  return report;
+}
+
+/// What was found in a file, in sentences.
+struct Findings
+{
+  std::vector<std::string> offences, repairs, warnings;
+
+  explicit Findings(const SMA::Repair_report& report)
+    : offences(report.offences()), repairs(report.repairs()), warnings(report.warnings())
+  {}
+
+  void add_offence(const SMA::internal::Described_defect& d)
+  {
+    if (d.defect.count == 0) return;
+    offences.push_back(d.problem());
+    repairs.push_back(d.repair());
+  }
+};
+
+/// \throws Bad_input with all offences, unless they were mended
+void conclude(const std::string& file, const Findings& found, const std::vector<std::string>& lost,
+              const Reading_options& options, Constrained_mesh& result)
+{
+  if (!options.repair && !found.offences.empty())
+    throw Bad_input(file + ": " + joined(found.offences) + "; --repair mends this");
+  append(result.repairs, file, found.repairs);
+  append(result.warnings, file, found.warnings);
+  if (!lost.empty()) result.warnings.push_back(file + ": not kept: " + joined(lost));
+}
+
 void parse_polygons(const std::string& text, const std::string& file, Constrained_mesh& result,
                     const Reading_options& options)
 {
   Polygon_soup soup = parse_polygon_soup(text, extension(file), file);
-  result.vertex_of_point.assign(soup.points.size(), Mesh::null_vertex());
-  SMA::internal::Soup_repair<Point> repair(std::move(soup.points), soup.polygons);
-  const SMA::Repair_report report = repair.build(result.mesh, {options.weld, options.repair});
-  if (!options.repair && !report.is_valid())
-    throw Bad_input(file + ": " + joined(report.offences()) + "; --repair mends this");
-  number_points(report.point_of_vertex, result);
-  append(result.repairs, file, report.repairs());
-  append(result.warnings, file, report.warnings());
-  if (!soup.lost.empty()) result.warnings.push_back(file + ": not kept: " + joined(soup.lost));
+  const SMA::Repair_report report = build(soup, options, result);
+  conclude(file, Findings(report), soup.lost, options, result);
 }
 
-void parse_medit(const std::string& text, const std::string& file, Constrained_mesh& result)
+/// The places of points that may be joined, else their indices.
+std::vector<std::uint32_t> places(const std::vector<Point>& points, bool may_be_joined)
+{
+  if (may_be_joined) return SMA::internal::places_of(points);
+  std::vector<std::uint32_t> indices(points.size());
+  std::iota(indices.begin(), indices.end(), std::uint32_t(0));
+  return indices;
+}
+
+/// The topology of these files is explicit: nothing is joined unless it is to be repaired. Points and marks off the
+/// surface are right if there is a volume.
+void parse_medit(const std::string& text, const std::string& file, Constrained_mesh& result, Reading_options options)
 {
   const SMA::Medit_mesh medit = SMA::parse_medit_mesh(text, file);
-  result.vertex_of_point =
-    SMA::medit_to_triangle_mesh(medit, result.mesh, result.edge_is_constrained, result.vertex_is_constrained);
-  for (const std::string& section : medit.ignored_sections)
-    result.warnings.push_back(file + ": the section " + section + " is ignored");
-  const auto& references = medit.triangle_references;
-  if (std::adjacent_find(references.begin(), references.end(), std::not_equal_to<>()) != references.end())
-    result.warnings.push_back(file + ": the references of the triangles are not kept");
+  options.weld = options.weld && options.repair;
+  Polygon_soup soup = polygon_soup(medit);
+  Medit_marks marks(medit, places(soup.points, options.weld));
+  SMA::Repair_report report = build(soup, options, result);
+  marks.put_on(result, report.point_of_vertex);
+  if (has_volume(medit)) report.isolated_points = SMA::Soup_defect();
+  Findings found(report);
+  const SMA::Soup_defect edges = marks.stray_edges(), vertices = marks.stray_vertices();
+  found.add_offence({edges, "marked edge is not an edge of a face", "marked edges are not edges of faces", "left out"});
+  if (!has_volume(medit))
+    found.add_offence({vertices, "marked vertex has no face", "marked vertices have no face", "left out"});
+  conclude(file, found, soup.lost, options, result);
 }
 
 /// Where the file is: as named or, if there is none, among CGAL's data.
@@ -144,7 +194,7 @@ void parse_mesh(const std::string& text, const std::string& file, Constrained_me
                 const Reading_options& options)
 {
   const Silence silence;
-  if (is_medit_format(file)) parse_medit(text, file, result);
+  if (is_medit_format(file)) parse_medit(text, file, result, options);
   else parse_polygons(text, file, result, options);
   if (result.mesh.number_of_faces() == 0) throw SMA::Empty_mesh_error();
   SMA::internal::import_face_graph(SMA::Sequential_execution(), result.mesh, result.mesh.points()); // checks it

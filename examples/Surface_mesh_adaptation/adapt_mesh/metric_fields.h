@@ -13,7 +13,6 @@
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
 
 #include <cstddef>
-#include <iostream>
 #include <string>
 
 namespace adapt_mesh {
@@ -42,18 +41,16 @@ inline SMA::Curvature_metric_field curvature_field(const Options& options)
 }
 
 /// As an option asks for it. \throws Bad_input
-inline SMA::Medit_field field_of_file(const Options& options, const Wanted_field& wanted, const Constrained_mesh& mesh)
+inline SMA::Medit_field field_of_file(const Wanted_field& wanted, Constrained_mesh& mesh)
 {
-  const auto warn = [&](const std::string& text) {
-    if (!options.quiet) std::cerr << "adapt_mesh: warning: " << text << '\n';
-  };
+  const auto warn = [&](const std::string& text) { mesh.warnings.push_back(text); };
   return reading(wanted.file, [&] { return read_field(wanted, mesh.vertex_of_point.size(), warn); });
 }
 
 inline auto solution_field(const Options& options, Constrained_mesh& mesh)
 {
   const Wanted_field wanted{options.field, std::size_t(options.field_number), {1}, "a scalar"};
-  const SMA::Medit_field values = field_of_file(options, wanted, mesh);
+  const SMA::Medit_field values = field_of_file(wanted, mesh);
   auto field = configured(options, SMA::Solution_metric_field(scalar_map(values, mesh), std::size_t(options.vertices)));
   field.norm = options.norm.value_or(field.norm);
   field.anisotropic = options.anisotropic;
@@ -75,7 +72,7 @@ template <class Adapt>
 SMA::Adaptation_report with_metric_of_file(const Options& options, Constrained_mesh& mesh, const Adapt& adapt)
 {
   const Wanted_field wanted{options.metric, std::size_t(options.metric_number), {1, 6}, "a scalar or a tensor"};
-  const SMA::Medit_field metric = field_of_file(options, wanted, mesh);
+  const SMA::Medit_field metric = field_of_file(wanted, mesh);
   const Size_bounds bounds(options.hmin, options.hmax);
   const auto adapt_to = [&](const auto& map) {
     return options.vertices > 0 || options.gradation ? adapt(intersection(options, map)) : adapt(map);

@@ -35,6 +35,7 @@ struct Options
   std::optional<double> norm; ///< p of L^p, may be infinite
   bool anisotropic = false;
   int vertices = 0;
+  int max_vertices = 0;
   std::optional<double> gradation;
   double tolerance = 0;
   bool flat = false;
@@ -85,6 +86,8 @@ inline po::options_description described_options(Options& o)
     ("vertices", po::value(&o.vertices)->value_name("N"),
      "number of vertices to aim at: with sizes from the curvature if nothing else is given, else with those of --field "
      "or --metric, scaled")
+    ("max-vertices", po::value(&o.max_vertices)->value_name("N"),
+     "refuse what needs more vertices than these (default: as many as the memory holds)")
     ("hmin", po::value(&o.hmin)->value_name("H"), "lower bound on the sizes")
     ("hmax", po::value(&o.hmax)->value_name("H"), "upper bound on the sizes")
     ("gradation", po::value<double>()->value_name("R")->notifier([&](double r) { o.gradation = r; }),
@@ -135,6 +138,7 @@ inline void check_positive(const po::variables_map& given, const Options& o)
   check("rounds", o.rounds);
   check("threads", o.threads);
   check("vertices", o.vertices);
+  check("max-vertices", o.max_vertices);
   check("metric-number", o.metric_number);
   check("field-number", o.field_number);
   if (o.norm && !(*o.norm >= 1)) throw Usage_error("--norm must be at least 1, or inf");

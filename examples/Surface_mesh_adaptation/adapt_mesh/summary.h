@@ -44,7 +44,13 @@ inline void print_summary(const SMA::Adaptation_report& report, const Mesh& inpu
   std::printf("time      %.3g s, %s, %d thread%s\n", report.seconds, report.execution.c_str(), report.threads,
               report.threads == 1 ? "" : "s");
   for (const std::string& sentence : report.repairs) std::printf("repaired  %s\n", sentence.c_str());
-  for (const std::string& sentence : report.warnings) std::printf("warning   %s\n", sentence.c_str());
+}
+
+/// Prints what a user may not expect, on stderr.
+inline void print_warnings(const SMA::Adaptation_report& report)
+{
+  for (const std::string& sentence : report.warnings)
+    std::fprintf(stderr, "adapt_mesh: warning: %s\n", sentence.c_str());
 }
 
 } // namespace adapt_mesh

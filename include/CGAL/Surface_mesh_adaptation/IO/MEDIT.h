@@ -99,8 +99,8 @@ inline Medit_solution parse_medit_solution(const std::string& content, const std
   return internal::parse_medit<internal::Medit_solution_parser>(content, file);
 }
 
-/// Reads a `.mesh` or `.meshb` file. Triangles with references, edges and marks are kept, quadrilaterals are rejected,
-/// other sections are skipped and listed in `ignored_sections`. \throws Io_error
+/// Reads a `.mesh` or `.meshb` file. Triangles and quadrilaterals with references, edges and marks are kept, other
+/// sections are skipped and listed in `ignored_sections`. \throws Io_error
 inline Medit_mesh read_medit_mesh(const std::string& file)
 {
   return parse_medit_mesh(internal::read_content(file), file);

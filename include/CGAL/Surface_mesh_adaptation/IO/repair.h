@@ -158,7 +158,8 @@ public:
   template <class Polygons>
   Soup_repair(std::vector<Point> points, const Polygons& polygons) : points_(std::move(points))
   {
-    if (points_.size() >= std::numeric_limits<std::uint32_t>::max()) throw Mesh_too_large_error(points_.size(), std::numeric_limits<std::uint32_t>::max());
+    constexpr std::size_t most = (std::numeric_limits<std::uint32_t>::max)() - 1;
+    if (points_.size() > most) throw Mesh_too_large_error(points_.size(), most);
     origin_.resize(points_.size());
     std::iota(origin_.begin(), origin_.end(), std::uint32_t(0));
     take(polygons);

@@ -16,14 +16,16 @@ namespace Surface_mesh_adaptation {
 struct Medit_mesh
 {
   template <std::size_t N>
-  using Simplices = std::vector<std::array<std::uint32_t, N>>;
+  using Tuples = std::vector<std::array<std::uint32_t, N>>;
   using Indices = std::vector<std::uint32_t>;
 
   std::vector<std::array<double, 3>> points;
   std::vector<int> point_references;         ///< as many as points
-  Simplices<3> triangles;                    ///< indices of points
+  Tuples<3> triangles;                    ///< indices of points
   std::vector<int> triangle_references;      ///< as many as triangles
-  Simplices<2> edges;                        ///< indices of points
+  Tuples<4> quadrilaterals;               ///< indices of points
+  std::vector<int> quadrilateral_references; ///< as many as quadrilaterals
+  Tuples<2> edges;                        ///< indices of points
   std::vector<int> edge_references;          ///< as many as edges
   Indices ridges;                            ///< indices of edges: sharp edges of the surface
   Indices required_edges;                    ///< indices of edges

@@ -27,7 +27,8 @@ namespace Surface_mesh_adaptation {
 /// `vertex_is_constrained`; the other values of both maps are not touched.
 ///
 /// Returns the vertex of each point, or `null_vertex()` for a point that no triangle uses.
-/// \throws Invalid_input_error if the triangles are not an orientable 2-manifold, or if a mark is not on it
+/// \throws Invalid_input_error if the triangles are not an orientable 2-manifold, if a mark is not on it, or if there
+///         are quadrilaterals
 template <class TriangleMesh, class EdgeIsConstrainedMap, class VertexIsConstrainedMap>
 auto medit_to_triangle_mesh(const Medit_mesh& medit, TriangleMesh& mesh, EdgeIsConstrainedMap edge_is_constrained,
                             VertexIsConstrainedMap vertex_is_constrained)
@@ -35,6 +36,7 @@ auto medit_to_triangle_mesh(const Medit_mesh& medit, TriangleMesh& mesh, EdgeIsC
   using Graph_traits = boost::graph_traits<TriangleMesh>;
   using Point =
     typename boost::property_traits<typename boost::property_map<TriangleMesh, CGAL::vertex_point_t>::type>::value_type;
+  if (!medit.quadrilaterals.empty()) throw Non_triangular_face_error(medit.triangles.size());
   std::vector<Point> points;
   points.reserve(medit.points.size());
   for (const auto& p : medit.points) points.emplace_back(p[0], p[1], p[2]);

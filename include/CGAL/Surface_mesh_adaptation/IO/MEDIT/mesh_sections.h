@@ -40,13 +40,13 @@ private:
     if (section_begin_.count(keyword) != 0) in.fail(position, "there is a second section " + keyword);
     section_begin_[keyword] = position;
     if (keyword == "Vertices") read_points();
-    else if (keyword == "Triangles") read_simplices(keyword, mesh_.triangles, mesh_.triangle_references);
-    else if (keyword == "Edges") read_simplices(keyword, mesh_.edges, mesh_.edge_references);
+    else if (keyword == "Triangles") read_tuples(keyword, mesh_.triangles, mesh_.triangle_references);
+    else if (keyword == "Quadrilaterals") read_tuples(keyword, mesh_.quadrilaterals, mesh_.quadrilateral_references);
+    else if (keyword == "Edges") read_tuples(keyword, mesh_.edges, mesh_.edge_references);
     else if (keyword == "Ridges") read_indices(keyword, mesh_.ridges);
     else if (keyword == "RequiredEdges") read_indices(keyword, mesh_.required_edges);
     else if (keyword == "Corners") read_indices(keyword, mesh_.corners);
     else if (keyword == "RequiredVertices") read_indices(keyword, mesh_.required_vertices);
-    else if (keyword == "Quadrilaterals") check_there_is_no_quadrilateral();
     else {
       mesh_.ignored_sections.push_back(keyword);
       in.skip_section();
@@ -66,15 +66,15 @@ private:
   }
 
   template <std::size_t N>
-  void read_simplices(const std::string& keyword, Medit_mesh::Simplices<N>& simplices, std::vector<int>& references)
+  void read_tuples(const std::string& keyword, Medit_mesh::Tuples<N>& tuples, std::vector<int>& references)
   {
     const std::size_t n = in.count();
     in.check_room(n, N + 1, 0);
     section_begin_[keyword] = in.position();
-    simplices.resize(n);
+    tuples.resize(n);
     references.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::uint32_t& v : simplices[i]) v = index();
+      for (std::uint32_t& v : tuples[i]) v = index();
       references[i] = in.template integer<int>("a reference");
     }
   }
@@ -96,15 +96,11 @@ private:
     return i - 1;
   }
 
-  void check_there_is_no_quadrilateral()
-  {
-    if (in.count() != 0) in.fail(in.last(), "there are quadrilaterals: the surface must be made of triangles");
-  }
-
   void check_indices() // sections may come in any order, hence last
   {
-    check_simplices("Triangles", mesh_.triangles);
-    check_simplices("Edges", mesh_.edges);
+    check_tuples("Triangles", mesh_.triangles);
+    check_tuples("Quadrilaterals", mesh_.quadrilaterals);
+    check_tuples("Edges", mesh_.edges);
     check_items("Ridges", mesh_.ridges, mesh_.edges.size(), "edge");
     check_items("RequiredEdges", mesh_.required_edges, mesh_.edges.size(), "edge");
     check_items("Corners", mesh_.corners, mesh_.points.size(), "vertex");
@@ -112,12 +108,12 @@ private:
   }
 
   template <std::size_t N>
-  void check_simplices(const char* keyword, const Medit_mesh::Simplices<N>& simplices)
+  void check_tuples(const char* keyword, const Medit_mesh::Tuples<N>& tuples)
   {
-    for (std::size_t i = 0; i < simplices.size(); ++i)
+    for (std::size_t i = 0; i < tuples.size(); ++i)
       for (std::size_t j = 0; j < N; ++j)
-        if (simplices[i][j] >= mesh_.points.size())
-          fail_at_integer(keyword, i * (N + 1) + j, "there is no vertex " + std::to_string(simplices[i][j] + 1ull));
+        if (tuples[i][j] >= mesh_.points.size())
+          fail_at_integer(keyword, i * (N + 1) + j, "there is no vertex " + std::to_string(tuples[i][j] + 1ull));
   }
 
   void check_items(const char* keyword, const Medit_mesh::Indices& indices, std::size_t n, const char* kind)
@@ -139,13 +135,13 @@ private:
 };
 
 template <class Writer, std::size_t N>
-void write_simplices(Writer& out, const char* keyword, const Medit_mesh::Simplices<N>& simplices,
-                     const std::vector<int>& references)
+void write_tuples(Writer& out, const char* keyword, const Medit_mesh::Tuples<N>& tuples,
+                  const std::vector<int>& references)
 {
-  if (simplices.empty()) return;
-  out.section(keyword, simplices.size());
-  for (std::size_t i = 0; i < simplices.size(); ++i) {
-    for (const std::uint32_t v : simplices[i]) out.integer(v + 1ull);
+  if (tuples.empty()) return;
+  out.section(keyword, tuples.size());
+  for (std::size_t i = 0; i < tuples.size(); ++i) {
+    for (const std::uint32_t v : tuples[i]) out.integer(v + 1ull);
     out.integer(references[i]).end_line();
   }
 }
@@ -167,8 +163,9 @@ void write_sections(Writer& out, const Medit_mesh& mesh)
     for (const double x : mesh.points[i]) out.real(x);
     out.integer(mesh.point_references[i]).end_line();
   }
-  write_simplices(out, "Triangles", mesh.triangles, mesh.triangle_references);
-  write_simplices(out, "Edges", mesh.edges, mesh.edge_references);
+  write_tuples(out, "Triangles", mesh.triangles, mesh.triangle_references);
+  write_tuples(out, "Quadrilaterals", mesh.quadrilaterals, mesh.quadrilateral_references);
+  write_tuples(out, "Edges", mesh.edges, mesh.edge_references);
   write_indices(out, "Ridges", mesh.ridges);
   write_indices(out, "RequiredEdges", mesh.required_edges);
   write_indices(out, "Corners", mesh.corners);
@@ -178,7 +175,7 @@ void write_sections(Writer& out, const Medit_mesh& mesh)
 /// The largest number that counts or names an item.
 inline std::size_t largest_count(const Medit_mesh& mesh)
 {
-  return (std::max)({mesh.points.size(), mesh.triangles.size(), mesh.edges.size()});
+  return (std::max)({mesh.points.size(), mesh.triangles.size(), mesh.quadrilaterals.size(), mesh.edges.size()});
 }
 
 } // namespace internal
