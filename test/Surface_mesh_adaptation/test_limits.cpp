@@ -253,6 +253,18 @@ TEST(Warnings, are_none_on_what_works)
   EXPECT_TRUE(SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.1)).warnings.empty());
 }
 
+TEST(Slivers, whose_third_edge_is_the_boundary_are_folds_without_a_face_behind_that)
+{
+  Soup soup; // the second face turns away from its neighbours
+  soup.points = {{-3.98827, 3.5133, -1.01165}, {-4.17235, 3.40475, -0.589762}, {-3.75798, 3.83341, -0.875062},
+                 {-3.96703, 3.6174, -0.733977}, {-3.80666, 3.85186, -0.730796}};
+  soup.triangles = {{1, 0, 2}, {3, 1, 2}, {4, 3, 2}};
+  Mesh mesh = shapes::mesh<Mesh>(soup);
+  const auto report = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.25));
+  EXPECT_TRUE(checks::topology(shapes::soup(mesh)) == checks::topology(soup));
+  EXPECT_GT(report.final.in_range, 0.8);
+}
+
 TEST(Slivers, at_a_boundary_are_adapted)
 {
   // three faces of a strip, of which the middle one is folded over at two edges; its third one is the boundary

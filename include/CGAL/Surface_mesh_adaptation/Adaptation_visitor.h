@@ -22,8 +22,8 @@ struct Adaptation_visitor
   /// The round is over.
   void round_done(std::size_t /*round*/, const Mesh_statistics&) {}
   /// Asked after every kernel, where a kernel runs alone after every sweep, and in whatever takes longer about every
-  /// twentieth of a second. `false` ends the run, at once, with the valid mesh reached so far: the input, where no kernel
-  /// has begun.
+  /// twentieth of a second. `false` ends the run, at once, with the valid mesh reached so far: the input, where no
+  /// kernel has begun.
   bool go_on() { return true; }
 };
 

@@ -122,8 +122,9 @@ class Invalid_extent_error : public Adaptation_error
 {
 public:
   explicit Invalid_extent_error(double extent)
-    : Adaptation_error("the extent of the mesh is " + internal::number(extent) + ", not within 1e-100 and 1e100: scale it"),
-      extent_(extent)
+    : Adaptation_error("the extent of the mesh is " + internal::number(extent) +
+                       ", not within 1e-100 and 1e100: scale it")
+    , extent_(extent)
   {}
 
   double extent() const { return extent_; } ///< largest side of the bounding box, or largest coordinate

@@ -89,15 +89,17 @@ double sampled_vertices_of_area(const Execution& execution, const Surface& surfa
   constexpr int parts = 8; // of each edge
   const auto& reference = surface.reference();
   return internal::vertices_per_area * reduce(execution, reference.mesh.number_of_faces(), 0.0, [&](std::size_t f) {
-    const auto point = [&](std::size_t i) -> const Vector_3& { return reference.points[reference.mesh.corner[3 * f + i]]; };
-    const Vector_3 e1 = point(1) - point(0), e2 = point(2) - point(0), n = e1.cross(e2);
+    const std::size_t h = 3 * f;
+    const Vector_3& p = reference.points[reference.mesh.corner[h]];
+    const Vector_3 e1 = reference.points[reference.mesh.corner[h + 1]] - p;
+    const Vector_3 e2 = reference.points[reference.mesh.corner[h + 2]] - p, n = e1.cross(e2);
     if (!(n.norm() > 0)) return 0.0;
     double sum = 0;
     for (int i = 0; i < parts; ++i)
       for (int j = 0; j < 2 * (parts - i) - 1; ++j) { // the triangles of a strip, upright and upside down in turns
         const double shift = j % 2 == 0 ? 1.0 / 3 : 2.0 / 3, u = (i + shift) / parts, v = (j / 2 + shift) / parts;
         const auto m = surface.background().at(reference, {Vertex_class::smooth, Index(f), u, v},
-                                               {point(0) + u * e1 + v * e2, n.normalized()});
+                                               {p + u * e1 + v * e2, n.normalized()});
         sum += face_mass(m, m, m, e1, e2, n.norm());
       }
     return sum / (6 * parts * parts);
