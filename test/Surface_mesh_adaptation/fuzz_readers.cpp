@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Feeds the readers of `adapt_mesh` with files that are cut, changed and spliced at random: each has to give a valid
-// mesh or one of the exceptions meant for bad files. To be run with the sanitizers.
+// mesh or field, or one of the exceptions meant for bad files. To be built with sanitizers, see scripts/sanitize.
 //
 // `fuzz_readers [--seconds S] [--seed N]`; a failure is printed with its seed, and its file is written to the current
 // folder.
@@ -10,9 +10,6 @@
 #include "mesh_files.h"
 
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
-#include <CGAL/Surface_mesh_adaptation/exceptions.h>
-#include <CGAL/Surface_mesh_adaptation/execution.h>
-#include <CGAL/Surface_mesh_adaptation/face_graph.h>
 
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <CGAL/boost/graph/generators.h>
@@ -50,12 +47,40 @@ std::string text_of(bool is_binary, const Write& write)
   return out.str();
 }
 
-/// A small mesh in each format.
+/// With sections of all kinds.
+SMA::Medit_mesh medit_mesh(Constrained_mesh& mesh)
+{
+  mesh.vertex_is_constrained[*mesh.mesh.vertices().begin()] = true;
+  mesh.edge_is_constrained[*mesh.mesh.edges().begin()] = true;
+  SMA::Medit_mesh medit =
+    SMA::triangle_mesh_to_medit(mesh.mesh, mesh.edge_is_constrained, mesh.vertex_is_constrained);
+  medit.points.insert(medit.points.end(), {{5, 0, 0}, {6, 0, 0}, {6, 1, 0}, {5, 1, 0}});
+  medit.point_references.resize(medit.points.size());
+  medit.quadrilaterals = {{12, 13, 14, 15}};
+  medit.quadrilateral_references = {3};
+  medit.required_edges = {0};
+  medit.required_vertices = {2};
+  return medit;
+}
+
+SMA::Medit_solution medit_solution()
+{
+  SMA::Medit_solution solution(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    solution[i].components = std::array<int, 3>{1, 3, 6}[i];
+    solution[i].values.assign(12 * std::size_t(solution[i].components), 0.5);
+  }
+  return solution;
+}
+
+/// A small mesh or field in each format.
 std::vector<File> valid_files()
 {
   Constrained_mesh constrained;
   Mesh& mesh = constrained.mesh;
   CGAL::make_icosahedron<Mesh, Point>(mesh);
+  const SMA::Medit_mesh medit = medit_mesh(constrained);
+  const SMA::Medit_solution solution = medit_solution();
   const auto off = [&](auto& out) { CGAL::IO::write_OFF(out, mesh); };
   const auto obj = [&](auto& out) { CGAL::IO::write_OBJ(out, mesh); };
   const auto ply = [&](auto& out) { CGAL::IO::write_PLY(out, mesh); };
@@ -69,8 +94,13 @@ std::vector<File> valid_files()
           {"ply", text_of(true, ply)},
           {"stl", text_of(false, stl)},
           {"stl", text_of(true, stl)},
-          {"mesh", SMA::print_medit_mesh(SMA::triangle_mesh_to_medit(mesh, constrained.edge_is_constrained,
-                                                                     constrained.vertex_is_constrained))}};
+          {"mesh", SMA::print_medit_mesh(medit)},
+          {"meshb", SMA::print_medit_mesh(medit, {1})},
+          {"meshb", SMA::print_medit_mesh(medit, {2})},
+          {"meshb", SMA::print_medit_mesh(medit, {4})},
+          {"sol", SMA::print_medit_solution(solution)},
+          {"solb", SMA::print_medit_solution(solution, {2})},
+          {"solb", SMA::print_medit_solution(solution, {4})}};
 }
 
 std::size_t below(std::size_t n, Random& random) { return n == 0 ? 0 : std::size_t(random() % n); }
@@ -97,13 +127,22 @@ void mutate(std::string& text, const std::string& other, Random& random)
   }
 }
 
+void read(const File& file, const Reading_options& options)
+{
+  const std::string name = "file." + file.format;
+  if (file.format.substr(0, 3) == "sol") {
+    SMA::parse_medit_solution(file.text, name);
+    return;
+  }
+  Constrained_mesh mesh;
+  parse_mesh(file.text, name, mesh, options);
+}
+
 /// \returns what is wrong with what reading `file` gave, or nothing
 std::string complaint(const File& file, const Reading_options& options)
 {
   try {
-    Constrained_mesh mesh;
-    reading(file.format, [&] { parse_mesh(file.text, "file." + file.format, mesh, options); });
-    SMA::read_face_graph(SMA::Sequential_execution(), mesh.mesh, mesh.mesh.points());
+    reading(file.format, [&] { read(file, options); });
     return "";
   } catch (const Bad_input&) {
     return "";

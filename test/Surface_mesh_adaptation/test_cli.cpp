@@ -735,6 +735,7 @@ TEST_F(Adapt_mesh, names_what_it_does_not_keep)
   expect_lost("in.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0.5 0.5 0.5\n", "colours of faces");
   expect_lost("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl red\nf 1/1 2/1 3/1\n",
               "materials; texture coordinates");
+  expect_lost("in.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nl 1 2 3\n l 1 2\nf 1 2 3\n", "lines");
   expect_lost("in.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"
                         "property float x\nproperty float y\nproperty float z\n"
                         "property uchar red\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"

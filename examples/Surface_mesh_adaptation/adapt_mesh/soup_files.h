@@ -20,6 +20,7 @@
 #include <exception>
 #include <sstream>
 #include <string>
+#include <string_view>
 
 namespace adapt_mesh {
 
@@ -36,10 +37,21 @@ inline std::size_t line_reached(std::istream& in, const std::string& text)
   return std::size_t(std::count(read.begin(), read.end(), '\n')) + 1;
 }
 
+/// The text of an obj file with its polylines, which CGAL's reader does not know, made comments.
+inline std::string without_polylines(std::string text)
+{
+  for_each_line(text, [&](std::string_view line) {
+    const std::string_view word = first_word(line);
+    if (word == "l") text[std::size_t(word.data() - text.data())] = '#';
+    return true;
+  });
+  return text;
+}
+
 inline Polygon_soup parse_with_cgal(const std::string& text, const std::string& format, const std::string& file)
 {
   Polygon_soup soup;
-  std::istringstream in(text);
+  std::istringstream in(format == "obj" ? without_polylines(text) : text);
   bool success = false;
   try {
     success = format == "obj" ? CGAL::IO::read_OBJ(in, soup.points, soup.polygons)
