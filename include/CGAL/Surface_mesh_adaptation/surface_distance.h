@@ -129,6 +129,9 @@ public:
   std::size_t size() const { return triangles_.size(); }
   const Triangle_points& operator[](std::size_t i) const { return triangles_[i]; }
 
+  /// The diagonal of the bounding box.
+  double extent() const { return (levels_.back()[0].high - levels_.back()[0].low).norm(); }
+
   /// About the distance of the farthest point from the origin, by which coordinates are rounded.
   double magnitude() const
   {
