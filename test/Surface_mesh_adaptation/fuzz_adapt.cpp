@@ -22,6 +22,7 @@
 #include <string>
 #include <type_traits>
 
+#include <sys/time.h>
 #include <unistd.h>
 
 namespace {
@@ -35,8 +36,14 @@ using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
 
 std::uint64_t current_seed = 0; // for the handler of signals
 
-/// A case takes far less than a second: one that does not end is a failure.
-constexpr unsigned longest_case = 60;
+/// Seconds of processor time. A case takes far less than one: one that does not end is a failure.
+constexpr long longest_case = 60;
+
+void limit_time(long seconds)
+{
+  const itimerval limit{{0, 0}, {seconds, 0}};
+  setitimer(ITIMER_PROF, &limit, nullptr);
+}
 
 void report_hang(int)
 {
@@ -151,15 +158,15 @@ int main(int argc, char* argv[])
     else seed = std::strtoull(argv[i + 1], nullptr, 10);
     is_one = is_one || option == "--one";
   }
-  std::signal(SIGALRM, report_hang);
+  std::signal(SIGPROF, report_hang);
   const auto start = std::chrono::steady_clock::now();
   std::size_t cases = 0, failures = 0;
   do {
     current_seed = seed++;
     if (std::getenv("FUZZ_TRACE")) std::cerr << "seed " << current_seed << std::endl;
-    alarm(longest_case);
+    limit_time(longest_case);
     const std::string what = failure(current_seed, is_one);
-    alarm(0);
+    limit_time(0);
     ++cases;
     if (what.empty()) continue;
     ++failures;
