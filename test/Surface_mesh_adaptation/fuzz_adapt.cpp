@@ -79,7 +79,7 @@ SMA::Adaptation_report adapt(Random& random, Mesh& mesh, const Field& field)
       .fit_to_surface(random.chance(0.1))
       .maximum_number_of_vertices(5000)
       .surface_reconstruction(Reconstruction());
-  return random.chance(0.2) ? SMA::adapt_surface_mesh<CGAL::Parallel_tag>(mesh, field, parameters)
+  return random.chance(0.2) ? SMA::adapt_surface_mesh<CGAL::Parallel_if_available_tag>(mesh, field, parameters)
                             : SMA::adapt_surface_mesh<CGAL::Sequential_tag>(mesh, field, parameters);
 }
 
