@@ -5,6 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_EXPECTED_SIZE_H
 #define CGAL_SURFACE_MESH_ADAPTATION_EXPECTED_SIZE_H
 
+#include <CGAL/Surface_mesh_adaptation/Features.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
