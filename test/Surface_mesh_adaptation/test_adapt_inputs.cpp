@@ -427,14 +427,23 @@ TEST(Geometry, with_degenerate_faces_survives)
   }
 }
 
-TEST(Geometry, that_collapses_to_a_line_or_a_point_survives)
+TEST(Geometry, that_collapses_to_a_line_survives)
 {
-  Soup line = shapes::sphere(1), point = shapes::sphere(1);
+  Soup line = shapes::sphere(1);
   for (Vector_3& p : line.points) p = Vector_3(p[0], 0, 0);
-  for (Vector_3& p : point.points) p = Vector_3(1, 2, 3);
-  for (const double size : {1.0, 0.1}) {
-    expect_survival(line, size);
-    expect_survival(point, size);
+  for (const double size : {1.0, 0.1}) expect_survival(line, size);
+}
+
+TEST(Geometry, whose_extent_cannot_be_squared_or_is_zero_is_refused)
+{
+  for (const double scale : {0.0, 1e-315, 1e-120, 1e120, 1e300}) {
+    SCOPED_TRACE(scale);
+    Soup soup = shapes::sphere(1);
+    for (Vector_3& p : soup.points) p *= scale;
+    Mesh mesh = shapes::mesh<Mesh>(soup);
+    const auto error = expect_refusal<SMA::Invalid_extent_error>(
+      mesh, [](Mesh& m) { SMA::adapt_surface_mesh(m, SMA::Uniform_metric_field(0.1)); });
+    EXPECT_NEAR(error.extent(), 2 * scale, 1.5 * scale);
   }
 }
 
