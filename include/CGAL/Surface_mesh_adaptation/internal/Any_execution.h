@@ -57,7 +57,14 @@ public:
   template <class Task>
   void run(std::size_t number_of_tasks, const Task& task) const
   {
-    if (!interruption_) return run_(number_of_tasks, Task_reference(task));
+    run_erased(number_of_tasks, Task_reference(task));
+  }
+
+private:
+  /// No template, so that each task is compiled once.
+  void run_erased(std::size_t number_of_tasks, const Task_reference& task) const
+  {
+    if (!interruption_) return run_(number_of_tasks, task);
     const auto interruptible_task = [&](std::size_t i) {
       interruption_->poll();
       task(i);
@@ -65,7 +72,6 @@ public:
     run_(number_of_tasks, Task_reference(interruptible_task));
   }
 
-private:
   int concurrency_;
   std::function<void(std::size_t, const Task_reference&)> run_;
   std::shared_ptr<Interruption> interruption_; // shared by copies
