@@ -59,28 +59,32 @@ double vertices_of_area(const Execution& execution, const Surface& surface)
   });
 }
 
-/// The vertices of unit edges along the feature curves, which may have hardly an area between them.
-template <class Execution, class Surface>
-double vertices_of_curves(const Execution& execution, const Surface& surface)
+namespace internal {
+
+/// The vertices of unit edges along the feature curves, which may have hardly an area between them: those of the edges
+/// that face `f` owns.
+template <class Surface>
+double vertices_of_curves(const Surface& surface, Index f)
 {
-  return internal::sum_over_faces(execution, surface, [&](Index f) {
-    double length = 0;
-    for (Index h = 3 * f; h < 3 * f + 3; ++h)
-      if (surface.mesh.is_feature(h) && surface.mesh.is_edge_owner(h)) length += surface.length(h);
-    return length;
-  });
+  double length = 0;
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    if (surface.mesh.is_feature(h) && surface.mesh.is_edge_owner(h)) length += surface.length(h);
+  return length;
 }
 
-/// The vertices of unit edges along faces that are less high than half an edge: those of a wire have hardly an area.
-template <class Execution, class Surface>
-double vertices_of_thin_faces(const Execution& execution, const Surface& surface)
+/// The vertices of unit edges along the face `f` with the area `area` in the metric, if it is less high than half an edge:
+/// those of a wire have hardly an area.
+template <class Surface>
+double vertices_of_thin_face(const Surface& surface, Index f, double area)
 {
-  return internal::sum_over_faces(execution, surface, [&](Index f) {
-    double longest = 0;
-    for (Index h = 3 * f; h < 3 * f + 3; ++h) longest = (std::max)(longest, surface.length(h));
-    return 4 * internal::area_in_metric(surface, f) < longest ? longest / 2 : 0.0;
-  });
+  const Mesh_view& mesh = surface.mesh;
+  double longest = 0;
+  for (Index h = 3 * f; h < 3 * f + 3; ++h)
+    if (!surface.is_shorter(mesh.source(h), mesh.target(h), (std::max)(longest, 4 * area))) longest = surface.length(h);
+  return longest / 2;
 }
+
+} // namespace internal
 
 /// The same as `vertices_of_area`, of the reference as it is at the start, with the metric measured at many points of
 /// each face: at the corners of large faces it says little of what is between them.
@@ -143,8 +147,15 @@ public:
   template <class Execution, class Surface>
   Limit_of_refinement(const Execution& execution, const Surface& surface)
     : largest_(surface.max_number_of_vertices), start_(surface.mesh.number_of_vertices())
-    , thin_(vertices_of_thin_faces(execution, surface))
-  {}
+  {
+    const Shares s = shares(execution, surface);
+    area_ = internal::vertices_per_area * s.area;
+    thin_ = s.thin;
+    allow(area_ + s.curves);
+  }
+
+  /// The vertices that the metric asks for, by the area at the start.
+  double vertices_of_area() const { return area_; }
 
   /// Whether a mesh of `n` vertices goes beyond what the metric asks for by far, or beyond what is possible.
   template <class Execution, class Surface>
@@ -152,8 +163,8 @@ public:
   {
     if (n > largest_) return true;
     if (double(n) <= allowed_) return false;
-    const double asked = thin_ + vertices_of_area(execution, surface) + vertices_of_curves(execution, surface);
-    allowed_ = (std::max)(allowed_, double(start_) + least + excess * asked);
+    const Shares s = shares(execution, surface);
+    allow(internal::vertices_per_area * s.area + s.curves);
     return double(n) > allowed_;
   }
 
@@ -161,8 +172,29 @@ private:
   static constexpr double excess = 4;   // of the vertices that are asked for
   static constexpr double least = 1000; // vertices, whatever is asked for
 
+  /// Of the faces.
+  struct Shares
+  {
+    double area = 0, curves = 0, thin = 0;
+
+    Shares operator+(const Shares& s) const { return {area + s.area, curves + s.curves, thin + s.thin}; }
+  };
+
+  template <class Execution, class Surface>
+  static Shares shares(const Execution& execution, const Surface& surface)
+  {
+    return reduce(execution, surface.mesh.number_of_faces(), Shares(), [&](std::size_t i) {
+      const Index f = Index(i);
+      if (surface.mesh.is_removed_face(f)) return Shares();
+      const double area = internal::area_in_metric(surface, f);
+      return Shares{area, internal::vertices_of_curves(surface, f), internal::vertices_of_thin_face(surface, f, area)};
+    }, std::plus<Shares>());
+  }
+
+  void allow(double asked) { allowed_ = (std::max)(allowed_, double(start_) + least + excess * (thin_ + asked)); }
+
   std::size_t largest_, start_;
-  double thin_, allowed_ = 0;
+  double area_ = 0, thin_ = 0, allowed_ = 0;
 };
 
 } // namespace Surface_mesh_adaptation

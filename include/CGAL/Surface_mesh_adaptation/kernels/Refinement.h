@@ -123,7 +123,7 @@ private:
   std::size_t expected_number_of_vertices() const
   {
     const double limit = double(max_growth * mesh_.number_of_vertices());
-    return std::size_t((std::min)(limit, expected_excess * vertices_of_area(execution_, surface_)));
+    return std::size_t((std::min)(limit, expected_excess * limit_->vertices_of_area()));
   }
 
   bool is_beyond_limit(const Restructuring& plan)
