@@ -123,7 +123,7 @@ TEST(Limits, needles_do_not_run_away)
     SMA::adapt_surface_mesh(isotropic, field);
     field.anisotropic = true;
     SMA::adapt_surface_mesh(anisotropic, field);
-    EXPECT_LT(anisotropic.number_of_vertices(), 4 * isotropic.number_of_vertices());
+    EXPECT_LT(anisotropic.number_of_vertices(), 8 * isotropic.number_of_vertices()); // thousands of times without end
     EXPECT_TRUE(checks::is_manifold(shapes::soup(anisotropic)));
   }
 }

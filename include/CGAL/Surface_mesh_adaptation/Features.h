@@ -5,6 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_FEATURES_H
 #define CGAL_SURFACE_MESH_ADAPTATION_FEATURES_H
 
+#include <CGAL/Surface_mesh_adaptation/Facets.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
@@ -74,6 +75,7 @@ struct Features
   std::vector<Vertex_class> vertex_class;
   std::vector<Curve_node> node_of_vertex;  ///< of curve vertices; of a closed chain's first vertex, index 0
   std::vector<Feature_curve> curves;
+  Facets facets;
 
   /// Unit tangent, in the direction of the chain, of `curve` at the vertex `v` of its edge between `v` and `w`.
   const Vector_3& tangent(Index curve, Index v, Index w) const
@@ -104,6 +106,85 @@ constexpr double cosine_at_point = 0.8;
 /// Cosine of the angle, 150 degrees, by which faces turn where one of them is folded over.
 constexpr double cosine_of_fold = -0.866;
 
+/// Two planes of the shape meet in an edge if their normals are farther apart than this, in radians: two degrees.
+constexpr double least_turn_between_planes = 0.035;
+
+/// Where a plane ends smoothly in something curved, the turn is half of that from facet to facet there. If it is more
+/// than all of it by this, five degrees, the plane ends in an edge.
+constexpr double least_turn_beside_rows = 0.087;
+
+/// Whoever asks for ridges from this angle on, in degrees, wants no edges between planes either.
+constexpr double largest_angle_for_planes = 90;
+
+/// Edges of a curve that follow each other belong to one arc if neither is longer than the other by more than this: CAD
+/// systems cut arcs evenly, other edges are what they happen to be.
+constexpr double largest_ratio_on_arcs = 10, largest_ratio_on_even_arcs = 3;
+
+inline double largest_ratio_of_edges(const Facets& facets)
+{
+  return facets.are_chords() ? largest_ratio_on_even_arcs : largest_ratio_on_arcs;
+}
+
+/// The straight pieces of a curve: what follows in one line belongs together, however many edges it has. Closed curves
+/// start where they bend.
+class Strokes
+{
+public:
+  Strokes(const Feature_curve& c, const std::vector<Vector_3>& points, const Facets& facets)
+    : c_(c), points_(points), stroke_of_edge_(c.vertices.size() - 1, 0)
+    , largest_ratio_(largest_ratio_of_edges(facets))
+  {
+    bounds_.push_back(0);
+    for (std::size_t i = 1; i + 1 < c.vertices.size(); ++i) {
+      const auto at = [&](std::size_t j) -> const Vector_3& { return points[c.vertices[j]]; };
+      if (!facets.is_on_line(at(bounds_.back()), at(i), at(i + 1))) bounds_.push_back(i);
+      stroke_of_edge_[i] = bounds_.size() - 1;
+    }
+    bounds_.push_back(c.vertices.size() - 1);
+  }
+
+  Vector_3 before(std::size_t i) const { return stroke(i == 0 ? size() - 1 : stroke_of_edge_[i - 1]); }
+  Vector_3 after(std::size_t i) const { return stroke(i + 1 == c_.vertices.size() ? 0 : stroke_of_edge_[i]); }
+
+  /// The stroke that follows the first one, or precedes the last one; zero if there is one only.
+  Vector_3 second() const { return size() > 1 ? stroke(1) : Vector_3::Zero(); }
+  Vector_3 last_but_one() const { return size() > 1 ? stroke(size() - 2) : Vector_3::Zero(); }
+
+  /// Whether a stroke beside that of edge `i` is about as long: one alone may as well be straight.
+  bool is_on_arc(std::size_t i) const
+  {
+    const std::size_t s = stroke_of_edge_[i], n = size();
+    const bool has_before = s > 0 || (c_.closed && n > 2), has_after = s + 1 < n || (c_.closed && n > 2);
+    return (has_before && are_like(s, (s + n - 1) % n)) || (has_after && are_like(s, (s + 1) % n));
+  }
+
+  /// Whether there are so few that they may as well be the sides of a polygon.
+  bool are_sides() const { return size() < 3; }
+
+  /// Whether a stroke of length `a` is too long to be of one arc with one of length `b`.
+  bool is_longer(double a, double b) const { return a > largest_ratio_ * b; }
+
+private:
+  std::size_t size() const { return bounds_.size() - 1; }
+
+  Vector_3 stroke(std::size_t s) const
+  {
+    return points_[c_.vertices[bounds_[s + 1]]] - points_[c_.vertices[bounds_[s]]];
+  }
+
+  bool are_like(std::size_t s, std::size_t t) const
+  {
+    const double a = stroke(s).norm(), b = stroke(t).norm();
+    return !is_longer(a, b) && !is_longer(b, a);
+  }
+
+  const Feature_curve& c_;
+  const std::vector<Vector_3>& points_;
+  std::vector<std::size_t> bounds_; ///< vertices of the chain where strokes begin, and its last one
+  std::vector<std::size_t> stroke_of_edge_;
+  double largest_ratio_;
+};
+
 /// One run of the detection: marks, corners, chains.
 class Feature_detection
 {
@@ -116,7 +197,9 @@ public:
   template <class Execution>
   Features run(const Execution& execution)
   {
+    features_.facets = find_facets(execution, mesh_, points_);
     mark_feature_edges(execution);
+    if (!features_.facets.empty()) mark_edges_of_planes(execution);
     if (parameters_.detect_ridges) {
       unmark_folds(execution);
       unmark_wrong_diagonals(execution);
@@ -147,7 +230,13 @@ private:
     return (points_[mesh_.corner[h + 1]] - p).cross(points_[mesh_.corner[h + 2]] - p);
   }
 
-  bool is_ridge(Index h) const { return is_turned(h, cosine_of_ridge_); }
+  bool is_ridge(Index h) const
+  {
+    const Facets& facets = features_.facets;
+    if (facets.empty()) return is_turned(h, cosine_of_ridge_);
+    const Index f = Mesh_view::face(h), g = Mesh_view::face(mesh_.twin[h]);
+    return !facets.are_one(f, g) && facets.at(f).normal.dot(facets.at(g).normal) < cosine_of_ridge_;
+  }
 
   bool is_turned(Index h, double cosine) const
   {
@@ -173,6 +262,30 @@ private:
       is_feature_[h] = mark;
       if (!mesh_.is_border(h)) is_feature_[mesh_.twin[h]] = mark;
     });
+  }
+
+  /// Finds the planes, and marks where they end at an angle; not where a mesher has been at work, to whose small facets
+  /// such angles happen.
+  template <class Execution>
+  void mark_edges_of_planes(const Execution& execution)
+  {
+    find_planes(mesh_, points_, [&](Index h) { return is_feature_[h] == none; }, features_.facets);
+    if (!parameters_.detect_ridges || features_.facets.are_meshed) return;
+    if (parameters_.ridge_angle >= largest_angle_for_planes) return;
+    for_each_index(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
+      const Index h = Index(i);
+      if (mesh_.is_edge_owner(h) && is_feature_[h] == none && ends_plane(h)) set_mark(h, ridge);
+    });
+  }
+
+  bool ends_plane(Index h) const
+  {
+    const Facet &f = features_.facets.at(Mesh_view::face(h)), &g = features_.facets.at(Mesh_view::face(mesh_.twin[h]));
+    if (&f == &g || !(f.is_plane || g.is_plane)) return false;
+    const double turn = angle_between(f.normal, g.normal);
+    if (f.is_plane && g.is_plane) return turn > least_turn_between_planes;
+    const Facet& curved = f.is_plane ? g : f;
+    return curved.faces > 1 && curved.turn > 0 && turn > curved.turn + least_turn_beside_rows;
   }
 
   /// Folds are noise rather than shapes, and their normals mean nothing: that of the face behind the longest edge, on
@@ -358,7 +471,25 @@ private:
     if (along.size() != 2) return Vertex_class::corner;
     const Vector_3 a = points_[v] - points_[along[0]], b = points_[along[1]] - points_[v];
     const bool straight = a.dot(b) >= std::cos(parameters_.corner_angle * CGAL_PI / 180) * a.norm() * b.norm();
-    return straight ? Vertex_class::curve : Vertex_class::corner;
+    return straight && !is_bend_of_lines(v, along) ? Vertex_class::curve : Vertex_class::corner;
+  }
+
+  /// Whether two straight lines meet in `v`, between its neighbours `along` two features: edges of lengths that no arc
+  /// has beside each other, of which the shorter one begins no arc either.
+  bool is_bend_of_lines(Index v, const Ring<Index>& along) const
+  {
+    const double ratio = largest_ratio_of_edges(features_.facets);
+    const Vector_3 a = points_[v] - points_[along[0]], b = points_[along[1]] - points_[v];
+    const bool is_first_shorter = a.squaredNorm() < b.squaredNorm();
+    const double shorter = (is_first_shorter ? a : b).norm(), longer = (is_first_shorter ? b : a).norm();
+    if (!(longer > ratio * shorter) || angle_between(a, b) < least_turn_beside_rows) return false;
+    const Index w = along[is_first_shorter ? 0 : 1];
+    bool begins_arc = false;
+    for_each_feature_neighbor(w, [&](Index x, std::uint8_t) {
+      const double next = (points_[x] - points_[w]).norm();
+      begins_arc = begins_arc || (x != v && next <= ratio * shorter && shorter <= ratio * next);
+    });
+    return !begins_arc;
   }
 
   /// The vertices from `start` along the feature edge to `second`, up to a corner or back to `start`.
@@ -427,6 +558,7 @@ private:
     const Index id = Index(features_.curves.size());
     Feature_curve c;
     c.closed = features_.vertex_class[chain.front()] == Vertex_class::curve;
+    if (c.closed) start_at_bend(chain);
     for (std::size_t i = 0; i < chain.size(); ++i) {
       const double step = i == 0 ? 0 : (points_[chain[i]] - points_[chain[i - 1]]).norm();
       c.arc_length.push_back(i == 0 ? 0 : c.arc_length.back() + step);
@@ -435,44 +567,79 @@ private:
         features_.node_of_vertex[chain[i]] = {id, Index(i)};
     }
     c.vertices = std::move(chain);
-    for (std::size_t i = 0; i < c.vertices.size(); ++i) c.tangents.push_back(tangent(c, i));
-    for (std::size_t i = 0; i + 1 < c.vertices.size(); ++i) c.ends.push_back(ends(c, i));
+    const Strokes strokes(c, points_, features_.facets);
+    for (std::size_t i = 0; i < c.vertices.size(); ++i) c.tangents.push_back(tangent(c, strokes, i));
+    for (std::size_t i = 0; i + 1 < c.vertices.size(); ++i) c.ends.push_back(ends(c, strokes, i));
     features_.curves.push_back(std::move(c));
   }
 
-  /// Three-point tangent, of second order on uneven points: of the parabola through the vertex and its neighbours, or
-  /// at an end through the first three vertices. The chord, if there are no three.
-  Vector_3 tangent(const Feature_curve& c, std::size_t i) const
+  /// Turns the closed `chain` so that it starts where it is not straight, if it is somewhere.
+  void start_at_bend(std::vector<Index>& chain) const
+  {
+    const std::size_t n = chain.size() - 1;
+    const auto is_straight = [&](std::size_t i) {
+      return features_.facets.is_on_line(points_[chain[(i + n - 1) % n]], points_[chain[i]], points_[chain[i + 1]]);
+    };
+    std::size_t start = 0;
+    while (start < n && is_straight(start)) ++start;
+    if (start == 0 || start == n) return;
+    chain.pop_back();
+    std::rotate(chain.begin(), chain.begin() + std::ptrdiff_t(start), chain.end());
+    chain.push_back(chain.front());
+  }
+
+  /// Three-point tangent, of second order on uneven points: of the parabola through the vertex and the ends of the
+  /// strokes there, or at an end through the first three of these. The stroke, if there are no three, and the longer
+  /// stroke where it is too long to be of one arc with the other.
+  static Vector_3 tangent(const Feature_curve& c, const Strokes& strokes, std::size_t i)
   {
     const std::size_t n = c.vertices.size();
-    if (n < 3) return chord(c, 0, 1).normalized();
-    if (!c.closed && i == 0) return end_tangent(chord(c, 0, 1), chord(c, 1, 2));
-    if (!c.closed && i + 1 == n) return -end_tangent(chord(c, n - 1, n - 2), chord(c, n - 2, n - 3));
-    const Vector_3 dm = chord(c, i == 0 ? n - 2 : i - 1, i), dp = chord(c, i, i + 1 == n ? 1 : i + 1);
+    if (!c.closed && i == 0) return end_tangent(strokes, strokes.after(0), strokes.second());
+    if (!c.closed && i + 1 == n) return -end_tangent(strokes, -strokes.before(i), -strokes.last_but_one());
+    const Vector_3 dm = strokes.before(i), dp = strokes.after(i);
     const double lm = dm.norm(), lp = dp.norm();
+    if (strokes.is_longer(lm, lp)) return dm / lm;
+    if (strokes.is_longer(lp, lm)) return dp / lp;
     return (lm * lp > 0 ? dp * (lm / lp) + dm * (lp / lm) : dp + dm).normalized();
   }
 
-  /// The tangent at the start of two chords that follow each other; the first one if the parabola turns off by more
-  /// than 30 degrees, which says that the chain is too coarse for it.
-  static Vector_3 end_tangent(const Vector_3& first, const Vector_3& second)
+  /// The tangent at the start of two strokes that follow each other; the first one if it is not of one arc with the
+  /// second, or if the parabola turns off by more than 30 degrees, which says that the chain is too coarse for it.
+  static Vector_3 end_tangent(const Strokes& strokes, const Vector_3& first, const Vector_3& second)
   {
     constexpr double least_cosine = 0.866;
     const double l1 = first.norm(), l2 = second.norm();
-    if (!(l1 * l2 > 0)) return first.normalized();
+    if (!(l1 * l2 > 0) || strokes.is_longer(l1, l2)) return first.normalized();
     const Vector_3 t = (first / l1 + (first / l1 - second / l2) * (l1 / (l1 + l2))).normalized();
     return t.dot(first) > least_cosine * l1 ? t : first / l1;
   }
 
-  std::array<Vector_3, 2> ends(const Feature_curve& c, std::size_t i) const
+  std::array<Vector_3, 2> ends(const Feature_curve& c, const Strokes& strokes, std::size_t i) const
   {
-    const Vector_3 e = chord(c, i, i + 1);
-    const Cubic_handles h = feature_handles(e, c.tangents[i], c.tangents[i + 1]);
-    const Vector_3 bulge = 0.375 * (h.start + h.end);
+    const Vector_3 e = points_[c.vertices[i + 1]] - points_[c.vertices[i]];
+    const std::array<Vector_3, 2> straight{e.normalized(), e.normalized()};
     const Index a = any_halfedge(c.vertices[i], c.vertices[i + 1]), b = mesh_.twin[a];
-    const bool is_straight = leaves_facet(a, bulge) || (b != no_index && leaves_facet(b, bulge));
-    if (is_straight) return {e.normalized(), e.normalized()};
-    return {c.tangents[i], c.tangents[i + 1]};
+    const bool is_side = b == no_index && strokes.are_sides(); // of an outline
+    if (is_side || !strokes.is_on_arc(i) || (is_beside_plane(a) && is_beside_plane(b))) return straight;
+    const Vector_3 ta = tangent_in_planes(a, b, c.tangents[i]), tb = tangent_in_planes(a, b, c.tangents[i + 1]);
+    const Cubic_handles h = feature_handles(e, ta, tb);
+    const Vector_3 bulge = 0.375 * (h.start + h.end);
+    if (leaves_facet(a, bulge) || (b != no_index && leaves_facet(b, bulge))) return straight;
+    return {ta, tb};
+  }
+
+  bool is_beside_plane(Index h) const { return h != no_index && features_.facets.is_plane(Mesh_view::face(h)); }
+
+  /// `t` without what leaves a plane on either side of an edge, which has the halfedges `a` and `b`.
+  Vector_3 tangent_in_planes(Index a, Index b, const Vector_3& t) const
+  {
+    for (const Index h : {a, b}) {
+      if (!is_beside_plane(h)) continue;
+      const Vector_3& n = features_.facets.at(Mesh_view::face(h)).normal;
+      const Vector_3 in_plane = t - t.dot(n) * n;
+      return in_plane.squaredNorm() > 0 ? Vector_3(in_plane.normalized()) : t;
+    }
+    return t;
   }
 
   /// Whether a curve over the edge of `h` that is off it by `bulge` in the middle would leave the facet, as a parabola:
@@ -484,11 +651,6 @@ private:
     const double length2 = e.squaredNorm(), along = side.dot(e);
     const Vector_3 height = side - along / length2 * e; // at `along` of `length2`
     return 4 * bulge.dot(height) * (std::max)(along, length2 - along) > height.squaredNorm() * length2;
-  }
-
-  Vector_3 chord(const Feature_curve& c, std::size_t i, std::size_t j) const
-  {
-    return points_[c.vertices[j]] - points_[c.vertices[i]];
   }
 
   Mesh_view& mesh_;

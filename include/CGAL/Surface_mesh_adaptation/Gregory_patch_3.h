@@ -113,7 +113,8 @@ private:
   {
     const std::size_t j = (i + 1) % 3;
     const Vector_3 e = p.points[j] - p.points[i];
-    const Handles h = p.is_feature[i] ? internal::feature_handles(e, p.tangents[i][0], p.tangents[i][1])
+    const Handles h = p.is_feature[i]    ? internal::feature_handles(e, p.tangents[i][0], p.tangents[i][1])
+                      : p.is_straight[i] ? internal::straight_handles(e)
                       : construction == Construction::walton_meek
                         ? internal::walton_meek_handles(e, p.normals[i], p.normals[j])
                         : internal::smooth_handles(e, p.normals[i], p.normals[j]);

@@ -26,6 +26,7 @@ struct Patch
   std::array<Vector_3, 3> points;
   std::array<Vector_3, 3> normals;                  ///< unit, of the smooth sector that the face belongs to
   std::array<bool, 3> is_feature{};                 ///< whether the edge lies on a feature curve
+  std::array<bool, 3> is_straight{};                ///< whether the edge, no feature, is to stay on its chord
   std::array<std::array<Vector_3, 2>, 3> tangents;  ///< unit tangents of that curve, of either sign, at corner `i` and
                                                     ///< at corner `i + 1`; only of feature edges
   /// Derivative of the unit normal along the surface, `(I - n n^T) / r` on a sphere of radius `r` with outward
@@ -43,6 +44,7 @@ inline Patch renumbered(const Patch& p, std::size_t first)
     q.points[i] = p.points[j];
     q.normals[i] = p.normals[j];
     q.is_feature[i] = p.is_feature[j];
+    q.is_straight[i] = p.is_straight[j];
     if (q.is_feature[i]) q.tangents[i] = p.tangents[j];
     q.shape_operators[i] = p.shape_operators[j];
     q.has_shape_operator[i] = p.has_shape_operator[j];

@@ -87,7 +87,9 @@ public:
       p.shape_operators[i] = jet.shape_operator;
       p.has_shape_operator[i] = jet.has_shape_operator;
     }
+    if (is_plane(f)) flatten(p, features.facets.at(f).normal);
     for (std::size_t i = 0; i < 3; ++i) {
+      p.is_straight[i] = is_straight(Index(h + i), p, i);
       const Index curve = mesh.curve[h + i];
       p.is_feature[i] = curve != no_curve;
       if (!p.is_feature[i]) continue;
@@ -110,8 +112,8 @@ public:
   /// The normal and the shape operator at `l`, on curves those of one side: at vertices of the input what is given or
   /// estimated there. In between the normal is that of the patch, and the shape operator the mean of two, that of the
   /// patch and the one interpolated between the corners. Measured: over many runs the errors of the two nearly cancel,
-  /// while with the latter alone it fades, and with the former alone the largest error is up to 3 times larger; where it
-  /// is far off, as in needles, it does not count.
+  /// while with the latter alone it fades, and with the former alone the largest error is up to 3 times larger; where
+  /// it is far off, as in needles, it does not count.
   internal::Jet jet(const Location& l) const
   {
     const Interpolation at = interpolation(l);
@@ -277,6 +279,39 @@ private:
     return Cache::at(id_, f, [&] { return patch(f); }, [&](const auto& prepared) {
       if (internal::has_fallback(prepared, 0)) has_fallback_[f].store(true, std::memory_order_relaxed);
     });
+  }
+
+  /// Whether `f` is of a plane of the shape. Normals that are given know better.
+  bool is_plane(Index f) const { return given_.normals.empty() && features.facets.is_plane(f); }
+
+  static void flatten(Patch& p, const Vector_3& normal)
+  {
+    p.normals = {normal, normal, normal};
+    p.has_shape_operator = {};
+  }
+
+  /// Whether the patches `p` and its neighbour meet along the chord of their common edge `i`, which has the halfedge
+  /// `h`: at planes, and where the curve would be off it by a large part of their heights and no fit agrees with that.
+  bool is_straight(Index h, const Patch& p, std::size_t i) const
+  {
+    const Index t = mesh.twin[h];
+    if (t == no_index || mesh.is_feature(h)) return false;
+    if (is_plane(Mesh_view::face(h)) || is_plane(Mesh_view::face(t))) return true;
+    const std::size_t j = (i + 1) % 3;
+    if (p.has_shape_operator[i] && p.has_shape_operator[j]) return false;
+    const auto curve = internal::smooth_handles(p.points[j] - p.points[i], p.normals[i], p.normals[j]);
+    const double height = (std::min)(least_height(Mesh_view::face(h)), least_height(Mesh_view::face(t)));
+    constexpr double least_doubtful = 0.5, least_doubtful_of_facets = 0.25; // of the height: an icosahedron has .16
+    const double largest_bulge = features.facets.are_chords() ? least_doubtful_of_facets : least_doubtful;
+    return 0.375 * (curve.start + curve.end).norm() > largest_bulge * height;
+  }
+
+  double least_height(Index f) const
+  {
+    const Face_frame frame = face_frame(f);
+    const double longest2 =
+      (std::max)({frame.e1.squaredNorm(), frame.e2.squaredNorm(), (frame.e2 - frame.e1).squaredNorm()});
+    return longest2 > 0 ? std::sqrt(frame.squared_double_area / longest2) : 0;
   }
 
   internal::Jet jet_at(Index h) const

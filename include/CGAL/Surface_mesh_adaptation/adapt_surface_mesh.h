@@ -6,6 +6,7 @@
 #include <CGAL/Surface_mesh_adaptation/Adaptation_driver.h>
 #include <CGAL/Surface_mesh_adaptation/Adaptation_visitor.h>
 #include <CGAL/Surface_mesh_adaptation/internal/in_place.h>
+#include <CGAL/Surface_mesh_adaptation/surface_bulge.h>
 
 #include <cmath>
 #include <cstddef>
@@ -38,6 +39,26 @@ void warn_of_missed_number(const MetricField& field, Adaptation_report& report)
   report.warnings.push_back("the mesh has " + number(reached) + " vertices where " + number(asked) + " were asked for");
 }
 
+template <class MetricField, class Reference>
+void warn_of_bulges(const Any_execution&, const MetricField&, const Reference&, Adaptation_report&)
+{}
+
+/// Says where the smooth surface leaves the input by several times the tolerance of the sizes: then its faces are not what
+/// the mesh is adapted to.
+template <class Reference>
+void warn_of_bulges(const Any_execution& execution, const Curvature_metric_field& field, const Reference& reference,
+                    Adaptation_report& report)
+{
+  constexpr double several = 4;
+  if (report.stopped || field.vertices > 0) return;
+  const double tolerance = field.relative_tolerance * diagonal_of_bounding_box(reference.points);
+  const double bulge = surface_bulge(execution, reference, several * tolerance);
+  if (bulge == 0) return;
+  report.warnings.push_back("the smooth surface leaves the faces of the input by up to " + number(bulge) + ", " +
+                            number(std::round(bulge / tolerance)) +
+                            " times the tolerance of the sizes: the input is coarse for that");
+}
+
 /// `adapt_surface_mesh` with a policy that is known at run time only: compiled once for all policies.
 template <class TriangleMesh, class MetricField, class NamedParameters>
 Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, const MetricField& field,
@@ -50,9 +71,12 @@ Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, cons
   auto& visitor = unwrap(visitor_parameter);
   const auto interruptible = execution.interruptible([&] { return visitor.go_on(); });
   Adaptation_report report = adapt_in_place(interruptible, mesh, field, np, [&](const auto& policy, auto& surface) {
-    return Adaptation_driver(policy, surface, visitor)
-      .run(rounds, surface.background().number_of_vertices(),
-           choose(np, internal_np::fit_to_surface, std::false_type()), shape_weight);
+    Adaptation_report result =
+      Adaptation_driver(policy, surface, visitor)
+        .run(rounds, surface.background().number_of_vertices(),
+             choose(np, internal_np::fit_to_surface, std::false_type()), shape_weight);
+    warn_of_bulges(policy, field, surface.reference(), result);
+    return result;
   });
   warn_of_missed_number(field, report);
   return report;

@@ -83,6 +83,7 @@ private:
     const std::size_t i = edge, j = (edge + 1) % 3;
     const Vector_3 c = p.points[j] - p.points[i];
     if (p.is_feature[edge]) return {curve_handle(c, p.tangents[edge][0]), -curve_handle(c, p.tangents[edge][1])};
+    if (p.is_straight[edge]) return {c / 3, c / -3};
     const double length2 = c.squaredNorm();
     return {tangential_part(c, p.normals[i], length2) / 3, tangential_part(c, p.normals[j], length2) / -3};
   }

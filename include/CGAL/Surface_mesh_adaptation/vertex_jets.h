@@ -7,6 +7,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_VERTEX_JETS_H
 
 #include <CGAL/Surface_mesh_adaptation/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/Facets.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
@@ -182,10 +183,10 @@ enum class Fit_purpose : std::uint8_t { patches, sizes };
 
 /// The fit over the neighbourhood of a sector with the normal `normal` of Max: of the highest degree that has samples
 /// enough, a normal within 30 degrees of `normal`, and serves its purpose; if there is none, `jet` stays.
-inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first, std::size_t n,
-                          const Vector_3& normal, Jet_fit kind, Fit_purpose purpose, Jet_of_sector& jet)
+inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets* facets, Index first,
+                          std::size_t n, const Vector_3& normal, Jet_fit kind, Fit_purpose purpose, Jet_of_sector& jet)
 {
-  Sector_neighborhood neighbors(mesh, first, n);
+  Sector_neighborhood neighbors(mesh, first, n, facets);
   const Plausible_jets plausible(mesh, points, first, n, neighbors);
   grow_for_cubic_fit(neighbors);
   const Tangent_frame frame(points[mesh.source(first)], normal);
@@ -301,7 +302,8 @@ Corner_jets estimate_jets(const Execution& execution, const Mesh_view& mesh, con
   };
   for_each_sector([&](Index id, Index first, std::size_t n) {
     internal::Jet_of_sector jet{jets.normals[id], Metric_tensor_3(0, 0, 0, 0, 0, 0)};
-    degree[id] = internal::fit_jet(mesh, points, first, n, jets.normals[id], samples, internal::Fit_purpose::sizes, jet);
+    degree[id] = internal::fit_jet(mesh, points, nullptr, first, n, jets.normals[id], samples,
+                                   internal::Fit_purpose::sizes, jet);
     jets.normals[id] = jet.normal;
     jets.shape_operators[id] = jet.shape_operator;
     jets.agrees[id] = jet.agrees;

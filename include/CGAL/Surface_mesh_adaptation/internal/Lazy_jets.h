@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/feature_normals.h>
 #include <CGAL/Surface_mesh_adaptation/internal/Facet_normals.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Sector_facets.h>
 #include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 #include <CGAL/Surface_mesh_adaptation/vertex_jets.h>
 
@@ -101,8 +102,8 @@ private:
   std::unique_ptr<std::atomic<std::uint8_t>[]> state_;
 };
 
-/// The normal of the `n` facets of a sector from that of `first` on that is off them least, in the mean over their area,
-/// so that patches leave them least; `otherwise` if they have none.
+/// The normal of the `n` facets of a sector from that of `first` on that is off them least, in the mean over their
+/// area, so that patches leave them least; `otherwise` if they have none.
 inline Vector_3 mean_normal(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first, std::size_t n,
                             const Vector_3& otherwise)
 {
@@ -111,8 +112,28 @@ inline Vector_3 mean_normal(const Mesh_view& mesh, const std::vector<Vector_3>& 
   return facets.empty() ? otherwise : facets.mean();
 }
 
-/// The jet of the sector that the corner `h` belongs to, with the mean normal of its facets and without a shape operator
-/// where no fit is good enough. What is given counts at smooth vertices: others may have several normals.
+/// The jet of the sector of the `n` faces from that of `first` on, where it has the normal `start` of Max: in a plane
+/// of the shape that of the plane, where facets of many sizes meet that of these; else of a fit; if none is good
+/// enough, with the mean normal of the triangles.
+inline Jet jet_of_sector(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets, Index first,
+                         std::size_t n, const Vector_3& start)
+{
+  const Metric_tensor_3 none(0, 0, 0, 0, 0, 0);
+  if (!facets.empty()) {
+    const Sector_facets sector(facets, mesh, points, first, n);
+    if (const Facet* plane = sector.plane()) return {plane->normal, none, false};
+    const bool is_of_chords = facets.are_chords() && sector.has_polygon() && !sector.are_of_one_net();
+    const Vector_3 normal = is_of_chords ? sector.normal() : Vector_3::Zero();
+    if (normal.squaredNorm() > 0) return {normal, none, false};
+  }
+  Jet_of_sector fit{start, none};
+  if (fit_jet(mesh, points, &facets, first, n, start, Jet_fit::exact, Fit_purpose::patches, fit) != Fit_degree::none)
+    return {fit.normal, fit.shape_operator, true};
+  return {mean_normal(mesh, points, first, n, start), none, false};
+}
+
+/// The jet of the sector that the corner `h` belongs to, with the mean normal of its facets and without a shape
+/// operator where no fit is good enough. What is given counts at smooth vertices: others may have several normals.
 inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Features& features,
                         const Corner_normals& normals, const Given_jets& given, Index h)
 {
@@ -122,11 +143,7 @@ inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& poin
   if (is_smooth && given.is_complete()) return given.at(v, jet);
   for_each_sector(mesh, v, [&](Index first, std::size_t n) {
     if (normals.of_corner[first] != sector) return;
-    Jet_of_sector fit{jet.normal, jet.shape_operator};
-    if (fit_jet(mesh, points, first, n, jet.normal, Jet_fit::exact, Fit_purpose::patches, fit) != Fit_degree::none)
-      jet = {fit.normal, fit.shape_operator, true};
-    else
-      jet.normal = mean_normal(mesh, points, first, n, jet.normal);
+    jet = jet_of_sector(mesh, points, features.facets, first, n, jet.normal);
     jet.normal = normal_on_features(mesh, features, first, n, jet.normal);
   });
   return is_smooth ? given.at(v, jet) : jet;

@@ -5,6 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_SECTOR_NEIGHBORHOOD_H
 #define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_SECTOR_NEIGHBORHOOD_H
 
+#include <CGAL/Surface_mesh_adaptation/Facets.h>
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 
 #include <boost/container/small_vector.hpp>
@@ -18,13 +19,16 @@ namespace Surface_mesh_adaptation {
 namespace internal {
 
 /// The neighbourhood of a smooth sector of a vertex: what can be reached from its faces over faces that share a vertex,
-/// without crossing a feature edge or the boundary. The vertex itself does not belong to it.
+/// without crossing a feature edge or the boundary, or into a plane of the shape or a facet that is far
+/// larger or smaller than the first one. The vertex itself does not belong to it.
 class Sector_neighborhood
 {
 public:
   /// The first ring: the neighbours of the source of `first` in the `n` faces of its sector from that of `first` on.
-  Sector_neighborhood(const Mesh_view& mesh, Index first, std::size_t n) : mesh_(mesh), center_(mesh.source(first))
+  Sector_neighborhood(const Mesh_view& mesh, Index first, std::size_t n, const Facets* facets = nullptr)
+    : mesh_(mesh), facets_(facets), center_(mesh.source(first))
   {
+    if (facets && !facets->empty()) area_ = facets->at(Mesh_view::face(first)).area;
     append(Mesh_view::next(first));
     for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h))
       if (mesh.apex(h) != vertices_[0]) append(Mesh_view::previous(h));
@@ -52,8 +56,8 @@ public:
   }
 
 private:
-  /// Calls `after(g)` or `before(g)` for the halfedges that leave the source of `h` in the other faces of its fan: those on
-  /// the way counterclockwise, then those clockwise.
+  /// Calls `after(g)` or `before(g)` for the halfedges that leave the source of `h` in the other faces of its fan:
+  /// those on the way counterclockwise, then those clockwise.
   template <class After, class Before>
   void walk_around(Index h, const After& after, const Before& before) const
   {
@@ -82,7 +86,19 @@ private:
     walk_around(h, [&](Index g) { add(Mesh_view::previous(g)); }, [&](Index g) { add(Mesh_view::next(g)); });
   }
 
-  bool can_cross(Index h) const { return !mesh_.is_feature(h) && !mesh_.is_border(h); }
+  bool can_cross(Index h) const
+  {
+    return !mesh_.is_feature(h) && !mesh_.is_border(h) && is_akin(Mesh_view::face(mesh_.twin[h]));
+  }
+
+  /// Whether face `f` may be of the same smooth piece: the curvature jumps where planes and rulings begin.
+  bool is_akin(Index f) const
+  {
+    if (!facets_ || facets_->empty()) return true;
+    const Facet& facet = facets_->at(f);
+    if (facet.is_plane) return false;
+    return !facets_->are_chords() || (facet.area <= largest_ratio * area_ && area_ <= largest_ratio * facet.area);
+  }
 
   void add(Index corner)
   {
@@ -102,6 +118,10 @@ private:
   }
 
   const Mesh_view& mesh_;
+  static constexpr double largest_ratio = 4; // of the areas of facets of one net
+
+  const Facets* facets_; ///< those that may have planes, or null
+  double area_ = 0;      ///< of the first facet
   Index center_;
   std::size_t last_ring_ = 0;
   std::uint64_t seen_ = 0; ///< the bits of all vertices

@@ -21,6 +21,13 @@ struct Cubic_handles
   bool is_straight;  ///< whether the normals or a tangent say nothing about the curve, so that the chord stands in
 };
 
+/// The chord.
+inline Cubic_handles straight_handles(const Vector_3& e)
+{
+  const Vector_3 third = (1.0 / 3) * e;
+  return {third, -third, true};
+}
+
 /// The curve over `e`, orthogonal to the unit normals at its ends, that has the least integral of its squared second
 /// derivative: that of Walton and Meek (1996), with its division by the length of `e` cancelled.
 inline Cubic_handles walton_meek_handles(const Vector_3& e, const Vector_3& na, const Vector_3& nb)
@@ -29,7 +36,7 @@ inline Cubic_handles walton_meek_handles(const Vector_3& e, const Vector_3& na, 
   const Vector_3 third = (1.0 / 3) * e;
   // 35 degrees out of a tangent plane (an icosahedron has 32; a faceted bore, whose needles would bulge, more), or
   // normals 120 degrees apart
-  if (!(3 * x * x < length2 && 3 * y * y < length2 && c > -0.5)) return {third, -third, true};
+  if (!(3 * x * x < length2 && 3 * y * y < length2 && c > -0.5)) return straight_handles(e);
   const double k = 1 / (3 * (4 - c * c)), p = k * (2 * x + c * y), q = k * (2 * y + c * x);
   return {(third - 2 * p * na) + q * nb, (2 * q * nb - third) - p * na, false};
 }

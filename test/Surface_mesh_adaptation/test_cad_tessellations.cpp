@@ -1,0 +1,531 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Tessellations as CAD systems make them, of shapes with known distances: facets as long as a face is, with any
+// diagonals, and further vertices on their borders and in planes, rotated, far from the origin, in single precision.
+
+#include "checks.h"
+#include "policies.h"
+#include "shapes.h"
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+namespace SMA = CGAL::Surface_mesh_adaptation;
+using shapes::Index;
+using shapes::pi;
+using shapes::Random;
+using shapes::Soup;
+using shapes::Vector_3;
+using Surface_mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+
+const SMA::Sequential_execution sequential;
+
+using Polygon = std::vector<Index>;
+
+/// Convex planar polygons, whose corners are found again by their coordinates.
+class Polygons
+{
+public:
+  std::vector<Vector_3> points;
+  std::vector<Polygon> polygons;
+
+  void add(const std::vector<Vector_3>& corners)
+  {
+    Polygon polygon;
+    for (const Vector_3& p : corners) {
+      const Index v = vertex(p);
+      if (std::find(polygon.begin(), polygon.end(), v) == polygon.end()) polygon.push_back(v);
+    }
+    if (polygon.size() > 2) polygons.push_back(polygon);
+  }
+
+private:
+  Index vertex(const Vector_3& p)
+  {
+    std::array<long, 3> key;
+    for (std::size_t i = 0; i < 3; ++i) key[i] = std::lround(p[Eigen::Index(i)] * 1e9);
+    const auto [found, is_new] = ids_.insert({key, Index(points.size())});
+    if (is_new) points.push_back(p);
+    return found->second;
+  }
+
+  std::map<std::array<long, 3>, Index> ids_;
+};
+
+/// Puts a vertex on some of the edges: on both of the polygons there.
+void split_edges(Random& random, Polygons& p, double share)
+{
+  std::map<std::pair<Index, Index>, Index> middle; // no_index: the edge stays whole
+  for (Polygon& polygon : p.polygons) {
+    Polygon longer;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Index v = polygon[i], w = polygon[(i + 1) % polygon.size()];
+      const auto [found, is_new] = middle.insert({std::minmax(v, w), shapes::no_index});
+      if (is_new && random.real() < share) {
+        const double t = random.real(0.1, 0.9);
+        found->second = Index(p.points.size());
+        p.points.push_back((1 - t) * p.points[v] + t * p.points[w]);
+      }
+      longer.push_back(v);
+      if (found->second != shapes::no_index) longer.push_back(found->second);
+    }
+    polygon = longer;
+  }
+}
+
+Vector_3 twice_area(const std::vector<Vector_3>& points, const Polygon& p)
+{
+  Vector_3 sum = Vector_3::Zero();
+  for (std::size_t i = 1; i + 1 < p.size(); ++i)
+    sum += (points[p[i]] - points[p[0]]).cross(points[p[i + 1]] - points[p[0]]);
+  return sum;
+}
+
+/// Cuts a convex polygon into triangles along random diagonals, none of which is on its border.
+void triangulate(Random& random, const std::vector<Vector_3>& points, Polygon p, Soup& soup)
+{
+  const double least = 1e-6 * twice_area(points, p).norm();
+  while (p.size() > 3) {
+    const std::size_t n = p.size(), i = random.below(n);
+    const Polygon ear{p[(i + n - 1) % n], p[i], p[(i + 1) % n]};
+    Polygon rest = p;
+    rest.erase(rest.begin() + std::ptrdiff_t(i));
+    if (!(twice_area(points, ear).norm() > least) || !(twice_area(points, rest).norm() > least)) continue;
+    soup.triangles.push_back({ear[0], ear[1], ear[2]});
+    p = rest;
+  }
+  soup.triangles.push_back({p[0], p[1], p[2]});
+}
+
+/// Puts a vertex near a side into the triangle `t`.
+void split_triangle(Random& random, Soup& soup, std::size_t t)
+{
+  const shapes::Triangle abc = soup.triangles[t];
+  const double u = random.real(0.05, 0.9), v = random.real(0.05, 0.95 - u), w = 1 - u - v;
+  const Index m = Index(soup.points.size());
+  soup.points.push_back(u * soup.points[abc[0]] + v * soup.points[abc[1]] + w * soup.points[abc[2]]);
+  soup.triangles[t] = {abc[0], abc[1], m};
+  soup.triangles.push_back({abc[1], abc[2], m});
+  soup.triangles.push_back({abc[2], abc[0], m});
+}
+
+/// A shape with its tessellation, and what is known of it.
+struct Part
+{
+  Polygons polygons;
+  std::function<double(const Vector_3&)> distance; ///< to its surface
+  std::function<bool(const Vector_3&)> is_flat;    ///< whether its surface is a plane next to a point
+  double sag;                                      ///< largest distance of the tessellation
+  double size;                                     ///< to adapt to
+};
+
+struct Variant
+{
+  std::string name;
+  double split_edges = 0;  ///< share of the edges with a further vertex
+  bool in_planes = false;  ///< whether planes have vertices inside
+  bool is_rotated = false;
+  Vector_3 shift{0, 0, 0};
+  bool is_single = false;  ///< single precision
+};
+
+/// A part as a file has it, and the way back.
+struct Placed
+{
+  Soup soup;
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Vector_3 shift{0, 0, 0};
+  double rounding;
+
+  Vector_3 back(const Vector_3& p) const { return rotation.transpose() * (p - shift); }
+};
+
+Placed placed(const Part& part, const Variant& variant, std::uint64_t seed)
+{
+  Random random(seed);
+  Polygons p = part.polygons;
+  split_edges(random, p, variant.split_edges);
+  Placed result;
+  result.soup.points = p.points;
+  for (const Polygon& polygon : p.polygons) {
+    Vector_3 center = Vector_3::Zero();
+    for (const Index v : polygon) center += p.points[v] / double(polygon.size());
+    const std::size_t first = result.soup.triangles.size();
+    triangulate(random, p.points, polygon, result.soup);
+    if (!variant.in_planes || !part.is_flat(center)) continue;
+    for (int i = 0; i < 4; ++i)
+      split_triangle(random, result.soup, first + random.below(result.soup.triangles.size() - first));
+  }
+  if (variant.is_rotated) {
+    const Vector_3 axis = random.vector().normalized();
+    result.rotation = Eigen::AngleAxisd(random.real(0, pi), axis).toRotationMatrix();
+  }
+  result.shift = variant.shift;
+  double largest = 0;
+  for (Vector_3& x : result.soup.points) {
+    x = result.rotation * x + result.shift;
+    if (variant.is_single) x = x.cast<float>().cast<double>();
+    largest = (std::max)(largest, x.lpNorm<Eigen::Infinity>());
+  }
+  result.rounding = largest * (variant.is_single ? 1.2e-7 : 2.3e-16);
+  return result;
+}
+
+struct Errors
+{
+  double largest = 0, rms = 0, flat = 0; ///< distances of the vertices; of those in planes
+};
+
+Errors errors(const Part& part, const Placed& placed, const Soup& adapted)
+{
+  Errors e;
+  for (const Vector_3& x : adapted.points) {
+    const Vector_3 p = placed.back(x);
+    const double d = std::abs(part.distance(p));
+    e.largest = (std::max)(e.largest, d);
+    e.rms += d * d / double(adapted.points.size());
+    if (part.is_flat(p)) e.flat = (std::max)(e.flat, d);
+  }
+  e.rms = std::sqrt(e.rms);
+  return e;
+}
+
+template <class Execution = SMA::Sequential_execution>
+Soup adapted(const Soup& soup, double size, const Execution& execution = sequential)
+{
+  auto mesh = shapes::mesh<Surface_mesh>(soup);
+  SMA::adapt_surface_mesh(execution, mesh, SMA::Uniform_metric_field(size));
+  return shapes::soup(mesh);
+}
+
+// Parts
+
+/// A box with the half sides `half` and all edges and corners rounded by `r`, in `k` chords for each quarter.
+Part rounded_box(const Vector_3& half, double r, int k)
+{
+  const Vector_3 inner = half - Vector_3(r, r, r);
+  struct Angle
+  {
+    double angle;
+    int center;
+  };
+  std::vector<Angle> around, up;
+  for (int q = 0; q < 4; ++q)
+    for (int i = 0; i <= k; ++i) around.push_back({(q + double(i) / k) * pi / 2, q});
+  for (int q = 0; q < 2; ++q)
+    for (int i = 0; i <= k; ++i) up.push_back({(q - 1 + double(i) / k) * pi / 2, q});
+  const auto point = [&](const Angle& a, const Angle& b) -> Vector_3 {
+    const bool is_left = a.center == 1 || a.center == 2, is_front = a.center >= 2;
+    const Vector_3 center(is_left ? -inner[0] : inner[0], is_front ? -inner[1] : inner[1],
+                          b.center == 0 ? -inner[2] : inner[2]);
+    const Vector_3 d(std::cos(b.angle) * std::cos(a.angle), std::cos(b.angle) * std::sin(a.angle), std::sin(b.angle));
+    return center + r * d;
+  };
+  Part part;
+  const std::size_t n = around.size();
+  for (std::size_t j = 0; j + 1 < up.size(); ++j)
+    for (std::size_t i = 0; i < n; ++i) {
+      const Angle &a = around[i], &b = around[(i + 1) % n];
+      part.polygons.add({point(a, up[j]), point(b, up[j]), point(b, up[j + 1]), point(a, up[j + 1])});
+    }
+  for (const double z : {-1.0, 1.0}) { // counterclockwise from above, and from below
+    const double x = inner[0], y = z * inner[1];
+    part.polygons.add({{x, y, z * half[2]}, {-x, y, z * half[2]}, {-x, -y, z * half[2]}, {x, -y, z * half[2]}});
+  }
+  part.distance = [=](const Vector_3& p) {
+    const Vector_3 d = p.cwiseAbs() - inner;
+    return d.cwiseMax(0.0).norm() + (std::min)(0.0, d.maxCoeff()) - r;
+  };
+  part.is_flat = [=](const Vector_3& p) { return (p.cwiseAbs().array() < (inner.array() - 1e-9)).count() >= 2; };
+  part.sag = 2 * r * (1 - std::cos(pi / (4 * k)));
+  part.size = half.norm() / 20;
+  return part;
+}
+
+/// What rotates about the z axis: straight pieces and arcs, the latter in chords; from the axis to the axis.
+struct Profile
+{
+  std::vector<std::array<double, 2>> points;
+  std::function<double(double, double)> distance;
+};
+
+Part revolved(const Profile& profile, std::size_t n, double sag, double size)
+{
+  Part part;
+  const auto point = [&](std::size_t i, std::size_t j) -> Vector_3 {
+    const double angle = 2 * pi * double(j % n) / double(n);
+    return {profile.points[i][0] * std::cos(angle), profile.points[i][0] * std::sin(angle), profile.points[i][1]};
+  };
+  const auto cap = [&](std::size_t i, bool is_top) {
+    std::vector<Vector_3> corners;
+    for (std::size_t j = 0; j < n; ++j) corners.push_back(point(i, is_top ? j : n - j));
+    part.polygons.add(corners);
+  };
+  for (std::size_t i = 0; i + 1 < profile.points.size(); ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      part.polygons.add({point(i, j), point(i, j + 1), point(i + 1, j + 1), point(i + 1, j)});
+  cap(0, false);
+  cap(profile.points.size() - 1, true);
+  part.distance = [=](const Vector_3& p) { return profile.distance(std::hypot(p[0], p[1]), p[2]); };
+  const double low = profile.points.front()[1], high = profile.points.back()[1];
+  const double r_low = profile.points.front()[0], r_high = profile.points.back()[0];
+  part.is_flat = [=](const Vector_3& p) { // the caps, but for their rims
+    const double r = std::hypot(p[0], p[1]), inside = std::cos(pi / double(n)) - 1e-6;
+    return (p[2] < low + 1e-2 && r < r_low * inside) || (p[2] > high - 1e-2 && r < r_high * inside);
+  };
+  part.sag = sag;
+  part.size = size;
+  return part;
+}
+
+double distance_to_segment(double x, double y, const std::array<double, 2>& a, const std::array<double, 2>& b)
+{
+  return checks::distance_to_segment(Vector_3(x, y, 0), Vector_3(a[0], a[1], 0), Vector_3(b[0], b[1], 0));
+}
+
+/// A frustum of a cone, radii 1 and .6 and two high, whose rims are rounded by arcs that touch cap and cone.
+Part rounded_frustum(std::size_t n, int k)
+{
+  constexpr double r = 0.15;
+  const std::array<double, 2> a{1, 0}, b{0.6, 2};
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1]), nx = (b[1] - a[1]) / length, ny = (a[0] - b[0]) / length;
+  // centers of the arcs: `r` inside of the cap and of the cone
+  const auto center = [&](double y) -> std::array<double, 2> { return {a[0] + (-r - (y - a[1]) * ny) / nx, y}; };
+  const auto low = center(r), high = center(2 - r);
+  const double slope = std::atan2(ny, nx);
+  Profile profile;
+  for (int i = 0; i <= k; ++i) {
+    const double t = -pi / 2 + (slope + pi / 2) * i / k;
+    profile.points.push_back({low[0] + r * std::cos(t), low[1] + r * std::sin(t)});
+  }
+  for (int i = 0; i <= k; ++i) {
+    const double t = slope + (pi / 2 - slope) * i / k;
+    profile.points.push_back({high[0] + r * std::cos(t), high[1] + r * std::sin(t)});
+  }
+  const std::array<double, 2> from = profile.points[std::size_t(k)], to = profile.points[std::size_t(k) + 1];
+  profile.distance = [=](double x, double y) {
+    double d =
+      (std::min)(distance_to_segment(x, y, {0, 0}, {low[0], 0}), distance_to_segment(x, y, {0, 2}, {high[0], 2}));
+    d = (std::min)(d, distance_to_segment(x, y, from, to));
+    for (const auto& c : {low, high}) {
+      const double angle = std::atan2(y - c[1], x - c[0]);
+      const bool is_low = c == low;
+      if (is_low ? angle > -pi / 2 && angle < slope : angle > slope && angle < pi / 2)
+        d = (std::min)(d, std::abs(std::hypot(x - c[0], y - c[1]) - r));
+    }
+    return d;
+  };
+  return revolved(profile, n, 1 - std::cos(pi / double(n)), 0.08);
+}
+
+/// A plate with the half sides 1, 1 and .2 and a bore of radius .5, in `4 k` chords.
+Part drilled_plate(int k)
+{
+  constexpr double r = 0.5, h = 0.2;
+  Part part;
+  const int n = 4 * k;
+  const auto inner = [&](int i, double z) -> Vector_3 {
+    const double t = 2 * pi * (i % n) / n;
+    return {r * std::cos(t), r * std::sin(t), z};
+  };
+  const auto outer = [&](int i, double z) -> Vector_3 { // corners of the square at odd multiples of k / 2
+    const Vector_3 d = inner(i, 0) / inner(i, 0).lpNorm<Eigen::Infinity>();
+    return {d[0], d[1], z};
+  };
+  for (int i = 0; i < n; ++i) {
+    part.polygons.add({inner(i, h), outer(i, h), outer(i + 1, h), inner(i + 1, h)});
+    part.polygons.add({inner(i + 1, -h), outer(i + 1, -h), outer(i, -h), inner(i, -h)});
+    part.polygons.add({outer(i, -h), outer(i + 1, -h), outer(i + 1, h), outer(i, h)});
+    part.polygons.add({inner(i + 1, -h), inner(i, -h), inner(i, h), inner(i + 1, h)});
+  }
+  part.distance = [=](const Vector_3& p) {
+    const Vector_3 d = p.cwiseAbs() - Vector_3(1, 1, h);
+    const double in_box = d.cwiseMax(0.0).norm() + (std::min)(0.0, d.maxCoeff());
+    return (std::max)(in_box, r - std::hypot(p[0], p[1]));
+  };
+  part.is_flat = [=](const Vector_3& p) { return std::hypot(p[0], p[1]) > 1.1 * r; };
+  part.sag = r * (1 - std::cos(pi / n));
+  part.size = 0.07;
+  return part;
+}
+
+/// A box with sharp edges.
+Part box()
+{
+  Part part;
+  const Vector_3 half(1, 0.6, 0.3);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const int side : {-1, 1}) {
+      const auto point = [&](double x, double y) -> Vector_3 {
+        Vector_3 p;
+        p[axis] = side;
+        p[(axis + 1) % 3] = x;
+        p[(axis + 2) % 3] = y * side;
+        return p.cwiseProduct(half);
+      };
+      part.polygons.add({point(-1, -1), point(1, -1), point(1, 1), point(-1, 1)});
+    }
+  part.distance = [=](const Vector_3& p) {
+    const Vector_3 d = p.cwiseAbs() - half;
+    return d.cwiseMax(0.0).norm() + (std::min)(0.0, d.maxCoeff());
+  };
+  part.is_flat = [](const Vector_3&) { return true; };
+  part.sag = 0;
+  part.size = 0.1;
+  return part;
+}
+
+std::vector<Variant> variants()
+{
+  const Vector_3 none(0, 0, 0), far(500000, 5400000, 300);
+  return {{"as it is", 0, false, false, none, false},    {"vertices on borders", 0.3, false, false, none, false},
+          {"vertices in planes", 0, true, true, none, false}, {"far away", 0.2, true, true, far, false},
+          {"single precision", 0, true, true, {3, 2, 1}, true}};
+}
+
+/// What the vertices of adapted tessellations may be off, in sags of the input.
+struct Limits
+{
+  double largest, rms;
+};
+
+/// Of those with vertices on chords, which are a sag off the surface themselves and take what is around along.
+constexpr Limits with_split_chords{10, 0.6};
+
+void expect_errors(const Part& part, const Limits& whole)
+{
+  for (const Variant& variant : variants())
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      SCOPED_TRACE(variant.name + ", seed " + std::to_string(seed));
+      const Placed input = placed(part, variant, seed);
+      const Errors e = errors(part, input, adapted(input.soup, part.size));
+      const Limits& limits = variant.split_edges > 0 ? with_split_chords : whole;
+      EXPECT_LE(e.flat, 20 * input.rounding);
+      EXPECT_LE(e.largest, limits.largest * part.sag + 20 * input.rounding);
+      EXPECT_LE(e.rms, limits.rms * part.sag + 20 * input.rounding);
+    }
+}
+
+TEST(Cad_tessellations, of_a_box_stay_flat) { expect_errors(box(), {0, 0}); }
+
+TEST(Cad_tessellations, of_a_rounded_box_keep_planes_and_round_fillets)
+{
+  expect_errors(rounded_box({2, 1, 0.6}, 0.3, 4), {0.5, 0.25});
+  expect_errors(rounded_box({2, 1, 0.6}, 0.1, 6), {0.5, 0.25});
+}
+
+TEST(Cad_tessellations, of_a_rounded_frustum_keep_caps_and_round_the_rest)
+{
+  expect_errors(rounded_frustum(36, 5), {0.5, 0.25});
+  expect_errors(rounded_frustum(24, 3), {0.5, 0.25});
+}
+
+TEST(Cad_tessellations, of_a_drilled_plate_keep_planes_and_round_the_bore)
+{
+  // slivers at the bore, which its curve would turn over, hold it on its chords
+  expect_errors(drilled_plate(6), {1, 0.25});
+  expect_errors(drilled_plate(12), {1, 0.25});
+}
+
+// Overshoot
+
+double area(const Soup& soup)
+{
+  double sum = 0;
+  for (const shapes::Triangle& t : soup.triangles)
+    sum += (soup.points[t[1]] - soup.points[t[0]]).cross(soup.points[t[2]] - soup.points[t[0]]).norm() / 2;
+  return sum;
+}
+
+TEST(Overshoot, triangles_alone_stay_in_their_outline)
+{
+  Random random(1);
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    Soup soup;
+    const double thin = std::pow(10.0, random.real(-2, 0));
+    soup.points = {{0, 0, 0}, {random.real(1, 10), 0, 0}, {random.real(-1, 5), thin * random.real(1, 5), 0}};
+    soup.triangles = {{0, 1, 2}};
+    const Soup result = adapted(soup, 0.3);
+    EXPECT_LE(area(result), (1 + 1e-9) * area(soup));
+    EXPECT_GE(area(result), 0.98 * area(soup)); // a blunt corner may be cut
+    for (const Vector_3& p : result.points) EXPECT_EQ(p[2], 0);
+  }
+}
+
+/// A convex prism over an irregular polygon: long edges follow short ones, turned by less than the corner angle.
+Part bar(Random& random)
+{
+  Part part;
+  std::vector<double> angles;
+  for (double a = 0; a < 2 * pi - 0.3; a += random.real() < 0.5 ? random.real(0.02, 0.2) : random.real(0.3, 0.7))
+    angles.push_back(a);
+  std::vector<Vector_3> top, bottom;
+  for (const double a : angles) {
+    top.push_back({10 * std::cos(a), 3 * std::sin(a), 1});
+    bottom.insert(bottom.begin(), {10 * std::cos(a), 3 * std::sin(a), -1});
+  }
+  part.polygons.add(top);
+  part.polygons.add(bottom);
+  const std::size_t n = top.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    part.polygons.add({bottom[n - 1 - i], bottom[n - 1 - j], top[j], top[i]});
+  }
+  part.is_flat = [](const Vector_3&) { return true; };
+  return part;
+}
+
+TEST(Overshoot, outlines_of_edges_of_all_lengths_bulge_by_a_fraction_of_these)
+{
+  Random random(1);
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    Part part = bar(random);
+    const Soup soup = placed(part, {}, std::uint64_t(i)).soup;
+    const Soup result = adapted(soup, 0.5);
+    EXPECT_LE(area(result), 1.1 * area(soup));
+    EXPECT_GE(area(result), 0.9 * area(soup));
+    for (const Vector_3& p : result.points) EXPECT_LE(std::abs(p[2]), 1 + 1e-9);
+  }
+}
+
+TEST(Cad_tessellations, whose_smooth_surface_leaves_them_by_several_tolerances_are_warned_of)
+{
+  const auto warnings = [](int k) {
+    auto mesh = shapes::mesh<Surface_mesh>(placed(drilled_plate(k), {}, 1).soup);
+    return SMA::adapt_surface_mesh(sequential, mesh, SMA::Curvature_metric_field(0.0005)).warnings;
+  };
+  const auto is_of_bulge = [](const std::string& s) { return s.find("leaves the faces") != std::string::npos; };
+  const auto coarse = warnings(2), fine = warnings(12);
+  EXPECT_TRUE(std::any_of(coarse.begin(), coarse.end(), is_of_bulge));
+  EXPECT_FALSE(std::any_of(fine.begin(), fine.end(), is_of_bulge));
+}
+
+TEST(Cad_tessellations, are_adapted_alike_by_all_policies)
+{
+  const Part part = rounded_box({2, 1, 0.6}, 0.3, 4);
+  const Placed input = placed(part, variants()[2], 1);
+  const Soup expected = adapted(input.soup, part.size);
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    EXPECT_TRUE(checks::is_identical(expected, adapted(input.soup, part.size, execution))) << name;
+  });
+}
+
+} // namespace
