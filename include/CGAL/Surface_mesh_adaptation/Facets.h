@@ -91,6 +91,9 @@ private:
 
 namespace internal {
 
+/// Two planes of the shape meet in an edge if their normals are farther apart than this, in radians: two degrees.
+constexpr double least_turn_between_planes = 0.035;
+
 /// Whether `x` is a decimal number of so many digits, but for the rounding of `double`.
 inline bool is_decimal(double x, int digits)
 {
@@ -105,9 +108,11 @@ template <class Execution>
 double coordinate_rounding(const Execution& execution, const std::vector<Vector_3>& points)
 {
   const auto all = [&](const auto& predicate) {
-    return count_if(execution, points.size(), [&](std::size_t i) {
-      return !(predicate(points[i][0]) && predicate(points[i][1]) && predicate(points[i][2]));
-    }) == 0;
+    const auto fails = [&](const Vector_3& p) { return !(predicate(p[0]) && predicate(p[1]) && predicate(p[2])); };
+    constexpr std::size_t few = 64; // that tell most predicates that do not hold, before all points are looked at
+    const auto first = points.begin(), last = first + std::ptrdiff_t((std::min)(few, points.size()));
+    return std::none_of(first, last, fails) &&
+           count_if(execution, points.size(), [&](std::size_t i) { return fails(points[i]); }) == 0;
   };
   const double largest = reduce(execution, points.size(), 0.0, [&](std::size_t i) {
     return points[i].template lpNorm<Eigen::Infinity>();
@@ -394,9 +399,8 @@ private:
   /// Where no edges are marked, a plane that is bent into something else has no normal at its border that fits both.
   void unmark_bent_planes()
   {
-    constexpr double largest_turn = 0.035; // two degrees
     for (const Border& b : borders_)
-      if (b.turn > largest_turn) facets_[b.f].is_plane = facets_[b.g].is_plane = false;
+      if (b.turn > least_turn_between_planes) facets_[b.f].is_plane = facets_[b.g].is_plane = false;
   }
 
   /// Whether `f` may be triangles of a mesh that happen to lie in a plane: `g` beside it is a triangle or a plane that

@@ -106,9 +106,6 @@ constexpr double cosine_at_point = 0.8;
 /// Cosine of the angle, 150 degrees, by which faces turn where one of them is folded over.
 constexpr double cosine_of_fold = -0.866;
 
-/// Two planes of the shape meet in an edge if their normals are farther apart than this, in radians: two degrees.
-constexpr double least_turn_between_planes = 0.035;
-
 /// Where a plane ends smoothly in something curved, the turn is half of that from facet to facet there. If it is more
 /// than all of it by this, five degrees, the plane ends in an edge.
 constexpr double least_turn_beside_rows = 0.087;

@@ -28,11 +28,12 @@ namespace internal {
 constexpr double vertices_per_area = 1.1547005383792515;
 
 template <class Execution, class Surface, class Map>
-double sum_over_faces(const Execution& execution, const Surface& surface, const Map& map)
+auto sum_over_faces(const Execution& execution, const Surface& surface, const Map& map)
 {
-  return reduce(execution, surface.mesh.number_of_faces(), 0.0, [&](std::size_t f) {
-    return surface.mesh.is_removed_face(Index(f)) ? 0.0 : map(Index(f));
-  }, std::plus<double>());
+  using Sum = decltype(map(Index()));
+  return reduce(execution, surface.mesh.number_of_faces(), Sum(), [&](std::size_t f) {
+    return surface.mesh.is_removed_face(Index(f)) ? Sum() : map(Index(f));
+  }, std::plus<Sum>());
 }
 
 /// Area of a face in the mean metric of its corners.
@@ -183,12 +184,10 @@ private:
   template <class Execution, class Surface>
   static Shares shares(const Execution& execution, const Surface& surface)
   {
-    return reduce(execution, surface.mesh.number_of_faces(), Shares(), [&](std::size_t i) {
-      const Index f = Index(i);
-      if (surface.mesh.is_removed_face(f)) return Shares();
+    return internal::sum_over_faces(execution, surface, [&](Index f) {
       const double area = internal::area_in_metric(surface, f);
       return Shares{area, internal::vertices_of_curves(surface, f), internal::vertices_of_thin_face(surface, f, area)};
-    }, std::plus<Shares>());
+    });
   }
 
   void allow(double asked) { allowed_ = (std::max)(allowed_, double(start_) + least + excess * (thin_ + asked)); }
