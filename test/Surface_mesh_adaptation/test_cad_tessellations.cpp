@@ -334,6 +334,69 @@ Part rounded_frustum(std::size_t n, int k)
   return revolved(profile, n, 1 - std::cos(pi / double(n)), 0.08);
 }
 
+/// An arc about `center` that replaces the straight piece from corner `from` on of a line, in `k` chords.
+struct Arc
+{
+  std::size_t from = shapes::no_index;
+  std::array<double, 2> center{0, 0};
+  int k = 1;
+
+  double radius(const std::array<double, 2>& p) const { return std::hypot(p[0] - center[0], p[1] - center[1]); }
+  double angle(const std::array<double, 2>& p) const { return std::atan2(p[1] - center[1], p[0] - center[0]); }
+};
+
+using Corners = std::vector<std::array<double, 2>>;
+
+double distance_to_line(const Corners& corners, const Arc& arc, const std::array<double, 2>& p)
+{
+  double d = (std::min)(distance_to_segment(p[0], p[1], {0, corners.front()[1]}, corners.front()),
+                        distance_to_segment(p[0], p[1], {0, corners.back()[1]}, corners.back()));
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const auto &a = corners[i], &b = corners[i + 1];
+    if (i != arc.from) d = (std::min)(d, distance_to_segment(p[0], p[1], a, b));
+    else if (arc.angle(a) < arc.angle(p) && arc.angle(p) < arc.angle(b))
+      d = (std::min)(d, std::abs(arc.radius(p) - arc.radius(a)));
+  }
+  return d;
+}
+
+/// What a line through `corners` sweeps, which an arc may be part of, between two caps; straight pieces in `rows` rows.
+Part turned(const Corners& corners, const Arc& arc, std::size_t n, int rows)
+{
+  Profile profile;
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    const auto &a = corners[i], &b = corners[i + 1];
+    const int pieces = i == arc.from ? arc.k : rows;
+    for (int j = 0; j < pieces; ++j) {
+      const double t = double(j) / pieces, angle = (1 - t) * arc.angle(a) + t * arc.angle(b), r = arc.radius(a);
+      if (i != arc.from) profile.points.push_back({(1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[1]});
+      else profile.points.push_back({arc.center[0] + r * std::cos(angle), arc.center[1] + r * std::sin(angle)});
+    }
+  }
+  profile.points.push_back(corners.back());
+  profile.distance = [=](double x, double y) { return distance_to_line(corners, arc, {x, y}); };
+  double largest = 0;
+  for (const auto& p : corners) largest = (std::max)(largest, p[0]);
+  return revolved(profile, n, largest * (1 - std::cos(pi / double(n))), 0.08);
+}
+
+/// Two cylinders with a cone between them, which meets them at an angle of `degrees`.
+Part shaft(double degrees, std::size_t n, int rows)
+{
+  const double height = 0.4 / std::tan(degrees * pi / 180);
+  return turned({{0.8, 0}, {0.8, 1}, {0.4, 1 + height}, {0.4, 2 + height}}, {}, n, rows);
+}
+
+/// A cylinder, a cone, a piece of a torus and a cone again, each at 30 degrees to the one before.
+Part knob(std::size_t n, int rows)
+{
+  const double y = 1, r = 0.6, c = std::cos(pi / 6);
+  const Arc arc{2, {0.4, y}, 6}; // starts upright and ends at 60 degrees to that
+  const Corners corners{
+    {0.8, 0}, {0.8, y - 0.4 * c}, {1, y}, {0.4 + r / 2, y + r * c}, {0.3 + r / 2, y + (r + 0.2) * c}};
+  return turned(corners, arc, n, rows);
+}
+
 /// A plate with the half sides 1, 1 and .2 and a bore of radius .5, in `4 k` chords.
 Part drilled_plate(int k)
 {
@@ -408,14 +471,14 @@ struct Limits
 /// Of those with vertices on chords, which are a sag off the surface themselves and take what is around along.
 constexpr Limits with_split_chords{10, 0.6};
 
-void expect_errors(const Part& part, const Limits& whole)
+void expect_errors(const Part& part, const Limits& whole, const Limits& split = with_split_chords)
 {
   for (const Variant& variant : variants())
     for (const std::uint64_t seed : {1, 2, 3}) {
       SCOPED_TRACE(variant.name + ", seed " + std::to_string(seed));
       const Placed input = placed(part, variant, seed);
       const Errors e = errors(part, input, adapted(input.soup, part.size));
-      const Limits& limits = variant.split_edges > 0 ? with_split_chords : whole;
+      const Limits& limits = variant.split_edges > 0 ? split : whole;
       EXPECT_LE(e.flat, 20 * input.rounding);
       EXPECT_LE(e.largest, limits.largest * part.sag + 20 * input.rounding);
       EXPECT_LE(e.rms, limits.rms * part.sag + 20 * input.rounding);
@@ -441,6 +504,73 @@ TEST(Cad_tessellations, of_a_drilled_plate_keep_planes_and_round_the_bore)
   // slivers at the bore, which its curve would turn over, hold it on its chords
   expect_errors(drilled_plate(6), {1, 0.25});
   expect_errors(drilled_plate(12), {1, 0.25});
+}
+
+TEST(Cad_tessellations, of_shafts_keep_the_circles_where_a_cylinder_meets_a_cone)
+{
+  for (const double degrees : {8, 30}) {
+    SCOPED_TRACE(degrees);
+    expect_errors(shaft(degrees, 24, 1), {0.25, 0.1});
+    expect_errors(shaft(degrees, 80, 1), {0.25, 0.1});
+  }
+}
+
+TEST(Cad_tessellations, of_a_knob_keep_the_circles_where_its_pieces_meet)
+{
+  expect_errors(knob(30, 1), {0.5, 0.25}, {10, 0.8});
+  expect_errors(knob(90, 1), {0.5, 0.25}, {10, 0.8});
+}
+
+TEST(Cad_tessellations, of_a_box_stay_flat_with_fans_of_slivers)
+{
+  Part part = box();
+  Random random(1);
+  for (int i = 0; i < 4; ++i) split_edges(random, part.polygons, 0.7);
+  expect_errors(part, {0, 0});
+}
+
+std::size_t number_of_ridges(const Soup& soup)
+{
+  SMA::Mesh_view mesh = shapes::view(soup);
+  SMA::detect_features(sequential, mesh, soup.points, SMA::Feature_parameters());
+  return (mesh.curve.size() - std::size_t(std::count(mesh.curve.begin(), mesh.curve.end(), SMA::no_curve))) / 2;
+}
+
+/// A sphere of quadrangles, and triangles at the poles.
+Part ball(std::size_t n, std::size_t k)
+{
+  Profile profile;
+  for (std::size_t i = 0; i <= k; ++i) {
+    const double a = pi * (double(i) / double(k) - 0.5);
+    profile.points.push_back({i == 0 || i == k ? 0 : std::cos(a), std::sin(a)});
+  }
+  profile.distance = [](double x, double y) { return std::hypot(x, y) - 1; };
+  return revolved(profile, n, 0, 0.1);
+}
+
+TEST(Cad_tessellations, of_rounded_shapes_have_no_creases)
+{
+  for (const std::uint64_t seed : {1, 2, 3})
+    for (const bool is_rotated : {false, true}) {
+      const Variant variant{"", 0, false, is_rotated, {0, 0, 0}, false};
+      for (const int k : {3, 4, 8}) {
+        EXPECT_EQ(number_of_ridges(placed(rounded_box({2, 1, 0.6}, 0.3, k), variant, seed).soup), 0u) << k;
+        EXPECT_EQ(number_of_ridges(placed(rounded_frustum(36, k), variant, seed).soup), 0u) << k;
+      }
+      for (const std::size_t k : {6, 9, 20}) {
+        EXPECT_EQ(number_of_ridges(placed(ball(2 * k, k), variant, seed).soup), 0u) << k;
+        EXPECT_EQ(number_of_ridges(placed(ball(4 * k, k), variant, seed).soup), 0u) << k;
+      }
+    }
+}
+
+TEST(Cad_tessellations, of_shafts_have_four_circles_of_creases)
+{
+  for (const std::size_t n : {12, 24, 80})
+    for (const int rows : {1, 2}) {
+      EXPECT_EQ(number_of_ridges(placed(shaft(30, n, rows), {}, 1).soup), 4 * n) << n << ", " << rows;
+      EXPECT_EQ(number_of_ridges(placed(knob(n, rows), {}, 1).soup), 5 * n) << n << ", " << rows;
+    }
 }
 
 // Overshoot

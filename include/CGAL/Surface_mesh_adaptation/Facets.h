@@ -91,6 +91,12 @@ private:
 
 namespace internal {
 
+/// Whether two sizes differ by the factor `ratio` at most.
+inline bool are_alike(double a, double b, double ratio) { return a <= ratio * b && b <= ratio * a; }
+
+/// Largest ratio of the areas, and of the sides, of facets of one net.
+constexpr double largest_ratio_in_nets = 4;
+
 /// Two planes of the shape meet in an edge if their normals are farther apart than this, in radians: two degrees.
 constexpr double least_turn_between_planes = 0.035;
 
@@ -346,7 +352,7 @@ private:
   bool are_like(const Border& b) const
   {
     if (facets_[b.f].is_plane || facets_[b.g].is_plane) return false;
-    return bend_[b.f] <= largest_ratio * bend_[b.g] && bend_[b.g] <= largest_ratio * bend_[b.f];
+    return are_alike(bend_[b.f], bend_[b.g], largest_ratio);
   }
 
   void join_rows()

@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Edge_section.h>
 #include <CGAL/Surface_mesh_adaptation/internal/cubic_curve.h>
 
 #include <CGAL/number_type_config.h>
@@ -110,6 +111,13 @@ constexpr double cosine_of_fold = -0.866;
 /// than all of it by this, five degrees, the plane ends in an edge.
 constexpr double least_turn_beside_rows = 0.087;
 
+/// A turn is a single one if the surface turns no more than this part of it again on either side.
+constexpr double largest_turn_again = 1.0 / 3;
+
+/// Turns that are less than this, five degrees, or ten where the facets are longer along the edge than across, are what
+/// diagonals make of something smooth.
+constexpr double least_turn_across_strips = 0.087, least_turn_along_strips = 0.174;
+
 /// Whoever asks for ridges from this angle on, in degrees, wants no edges between planes either.
 constexpr double largest_angle_for_planes = 90;
 
@@ -171,8 +179,7 @@ private:
 
   bool are_like(std::size_t s, std::size_t t) const
   {
-    const double a = stroke(s).norm(), b = stroke(t).norm();
-    return !is_longer(a, b) && !is_longer(b, a);
+    return are_alike(stroke(s).norm(), stroke(t).norm(), largest_ratio_);
   }
 
   const Feature_curve& c_;
@@ -196,7 +203,9 @@ public:
   {
     features_.facets = find_facets(execution, mesh_, points_);
     mark_feature_edges(execution);
-    if (!features_.facets.empty()) mark_edges_of_planes(execution);
+    if (!features_.facets.empty())
+      find_planes(mesh_, points_, [&](Index h) { return !is_marked(h); }, features_.facets);
+    if (finds_edges_of_facets()) mark_edges_of_facets(execution);
     if (parameters_.detect_ridges) {
       unmark_folds(execution);
       unmark_wrong_diagonals(execution);
@@ -261,18 +270,31 @@ private:
     });
   }
 
-  /// Finds the planes, and marks where they end at an angle; not where a mesher has been at work, to whose small facets
-  /// such angles happen.
-  template <class Execution>
-  void mark_edges_of_planes(const Execution& execution)
+  bool is_marked(Index h) const { return is_feature_[h] != none; }
+
+  /// Not where a mesher has been at work, to whose small facets any angles happen.
+  bool finds_edges_of_facets() const
   {
-    find_planes(mesh_, points_, [&](Index h) { return is_feature_[h] == none; }, features_.facets);
-    if (!parameters_.detect_ridges || features_.facets.are_meshed) return;
-    if (parameters_.ridge_angle >= largest_angle_for_planes) return;
-    for_each_index(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
-      const Index h = Index(i);
-      if (mesh_.is_edge_owner(h) && is_feature_[h] == none && ends_plane(h)) set_mark(h, ridge);
+    return features_.facets.are_chords() && parameters_.detect_ridges &&
+           parameters_.ridge_angle < largest_angle_for_planes;
+  }
+
+  /// Marks where planes end at an angle, and then where else the surface turns once.
+  template <class Execution>
+  void mark_edges_of_facets(const Execution& execution)
+  {
+    mark_all(execution, [&](Index h) { return ends_plane(h); });
+    mark_all(execution, [&](Index h) { return is_single_turn(h); });
+  }
+
+  /// Marks the edges for which `is_sharp(h)`, which sees none of these marks.
+  template <class Execution, class Sharp>
+  void mark_all(const Execution& execution, const Sharp& is_sharp)
+  {
+    const std::vector<Index> sharp = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
+      return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) && is_sharp(Index(h));
     });
+    for (const Index h : sharp) set_mark(h, ridge);
   }
 
   bool ends_plane(Index h) const
@@ -283,6 +305,23 @@ private:
     if (f.is_plane && g.is_plane) return turn > least_turn_between_planes;
     const Facet& curved = f.is_plane ? g : f;
     return curved.faces > 1 && curved.turn > 0 && turn > curved.turn + least_turn_beside_rows;
+  }
+
+  /// Whether the surface turns at `h` and next to it on neither side again alike: from one row of strips to another
+  /// one, say. Triangles alone turn as they happen to.
+  bool is_single_turn(Index h) const
+  {
+    const Facets& facets = features_.facets;
+    const Index t = mesh_.twin[h], f = Mesh_view::face(h), g = Mesh_view::face(t);
+    if (facets.are_one(f, g) || facets.at(f).faces + facets.at(g).faces < 3) return false;
+    const Edge_section section(mesh_, points_, facets, h);
+    const double turn = std::abs(section.turn()), distance = section.extent(h) + section.extent(t);
+    const bool is_across = distance * distance > squared_length(h);
+    if (!(turn > (is_across ? least_turn_across_strips : least_turn_along_strips))) return false;
+    const auto turns_again = [&](Index side) {
+      return section.turns_again(side, largest_turn_again * turn, distance, [&](Index e) { return is_marked(e); });
+    };
+    return !turns_again(h) && !turns_again(t);
   }
 
   /// Folds are noise rather than shapes, and their normals mean nothing: that of the face behind the longest edge, on
@@ -483,8 +522,7 @@ private:
     const Index w = along[is_first_shorter ? 0 : 1];
     bool begins_arc = false;
     for_each_feature_neighbor(w, [&](Index x, std::uint8_t) {
-      const double next = (points_[x] - points_[w]).norm();
-      begins_arc = begins_arc || (x != v && next <= ratio * shorter && shorter <= ratio * next);
+      begins_arc = begins_arc || (x != v && are_alike((points_[x] - points_[w]).norm(), shorter, ratio));
     });
     return !begins_arc;
   }
@@ -505,8 +543,8 @@ private:
     }
   }
 
-  /// A cycle of which one edge is a large part cannot be parametrised by its arc length once it is coarser: its
-  /// vertices are kept.
+  /// A cycle of few edges, or of which one edge is a large part, cannot be parametrised by its arc length once it is
+  /// coarser: its vertices are kept, or the ends of such edges.
   void make_corners_on_tiny_cycles()
   {
     std::vector<std::uint8_t> visited(mesh_.number_of_vertices(), 0);
@@ -516,16 +554,20 @@ private:
       for_each_feature_neighbor(v, [&](Index w, std::uint8_t) { second = w; });
       const std::vector<Index> chain = chain_from(v, second);
       for (Index w : chain) visited[w] = 1;
-      if (chain.front() != chain.back()) continue;
-      double length = 0, longest = 0;
-      for (std::size_t i = 1; i < chain.size(); ++i) {
-        const double l = (points_[chain[i]] - points_[chain[i - 1]]).norm();
-        length += l;
-        longest = (std::max)(longest, l);
-      }
-      if (chain.size() <= 8 || longest > length / 4)
-        for (Index w : chain) features_.vertex_class[w] = Vertex_class::corner;
+      if (chain.front() == chain.back()) make_corners_on(chain);
     }
+  }
+
+  void make_corners_on(const std::vector<Index>& cycle)
+  {
+    constexpr std::size_t few = 8;
+    constexpr double large_part = 0.25;
+    const auto step = [&](std::size_t i) { return (points_[cycle[i]] - points_[cycle[i - 1]]).norm(); };
+    double length = 0;
+    for (std::size_t i = 1; i < cycle.size(); ++i) length += step(i);
+    for (std::size_t i = 1; i < cycle.size(); ++i)
+      if (cycle.size() <= few || step(i) > large_part * length)
+        features_.vertex_class[cycle[i - 1]] = features_.vertex_class[cycle[i]] = Vertex_class::corner;
   }
 
   void chain_curves()

@@ -44,6 +44,7 @@ public:
       const double next2 = (points[mesh.target(c.first)] - points[mesh.source(c.first)]).squaredNorm();
       has_split_side_ = has_split_side_ || c.right.squaredNorm() > next2;
     }
+    is_in_one_row_ = !is_closed && ends_on_features(mesh);
   }
 
   /// The largest plane of the shape among them, or null.
@@ -67,16 +68,16 @@ public:
 
   /// Whether they are of one net that goes on around the vertex, so that a fit over it means something: about as large
   /// as each other, and with sides about as long where the vertex is inside. Where rulings of a cylinder end in a
-  /// fillet, say, the curvature jumps. At the margin of a net, only a fit knows how it bends across that.
+  /// fillet, say, the curvature jumps. At the margin of a net, only a fit knows how it bends across that; a row alone
+  /// does not.
   bool are_of_one_net() const
   {
-    const auto are_like = [](double a, double b, double ratio) { return a <= ratio * b && b <= ratio * a; };
     const Corner& first = corners_.front();
-    if (has_split_side_) return false; // by a vertex that lies on a chord, not on the surface
+    if (is_in_one_row_ || has_split_side_) return false; // the latter by a vertex on a chord, not on the surface
     for (const Corner& c : corners_) {
-      if (!are_like(facet(c).area, facet(first).area, largest_ratio_of_areas) || !(sine(c) > least_sine)) return false;
+      if (!are_alike(facet(c).area, facet(first).area, largest_ratio_in_nets) || !(sine(c) > least_sine)) return false;
       for (const Vector_3* s : {&c.right, &c.left})
-        if (is_closed_ && !are_like(s->norm(), first.right.norm(), largest_ratio_of_sides)) return false;
+        if (is_closed_ && !are_alike(s->norm(), first.right.norm(), largest_ratio_in_nets)) return false;
     }
     return true;
   }
@@ -95,7 +96,6 @@ public:
   }
 
 private:
-  static constexpr double largest_ratio_of_areas = 4, largest_ratio_of_sides = 4; // in nets
   static constexpr double longest_chord = 3; // times that of the other side of a vertex, as of facets of one thing
 
   struct Corner
@@ -113,6 +113,17 @@ private:
     for (std::size_t i = 0; i < n; ++i, h = mesh.rotated_ccw(h))
       if (!facets_.are_one(Mesh_view::face(h), Mesh_view::face(mesh.twin[h]))) return h;
     return first;
+  }
+
+  /// Whether all sides between the facets of an open sector end on features again.
+  bool ends_on_features(const Mesh_view& mesh) const
+  {
+    const auto ends = [&](const Corner& c) {
+      bool is_on_feature = false;
+      mesh.for_each_outgoing(mesh.target(c.first), [&](Index h) { is_on_feature |= mesh.is_feature(h); });
+      return is_on_feature;
+    };
+    return corners_.size() > 1 && std::all_of(corners_.begin() + 1, corners_.end(), ends);
   }
 
   /// From the target of the border halfedge `h` back to where the border ceases to be straight.
@@ -160,7 +171,7 @@ private:
 
   const Facets& facets_;
   Ring<Corner> corners_;
-  bool is_closed_ = false, has_split_side_ = false;
+  bool is_closed_ = false, has_split_side_ = false, is_in_one_row_ = false;
 };
 
 } // namespace internal

@@ -97,7 +97,7 @@ private:
     if (!facets_ || facets_->empty()) return true;
     const Facet& facet = facets_->at(f);
     if (facet.is_plane) return false;
-    return !facets_->are_chords() || (facet.area <= largest_ratio * area_ && area_ <= largest_ratio * facet.area);
+    return !facets_->are_chords() || are_alike(facet.area, area_, largest_ratio_in_nets);
   }
 
   void add(Index corner)
@@ -118,8 +118,6 @@ private:
   }
 
   const Mesh_view& mesh_;
-  static constexpr double largest_ratio = 4; // of the areas of facets of one net
-
   const Facets* facets_; ///< those that may have planes, or null
   double area_ = 0;      ///< of the first facet
   Index center_;

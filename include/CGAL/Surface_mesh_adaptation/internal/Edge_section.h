@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The section of a tessellation with the plane across the middle of an edge: how it turns there, and beside it.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_EDGE_SECTION_H
+#define CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_EDGE_SECTION_H
+
+#include <CGAL/Surface_mesh_adaptation/Facets.h>
+#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+
+#include <cmath>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+/// A line over the facets on both sides of an edge. Angles are in radians.
+class Edge_section
+{
+public:
+  /// \pre `h` is not on the boundary
+  Edge_section(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets, Index h)
+    : mesh_(mesh), points_(points), facets_(facets), h_(h)
+    , middle_((points[mesh.source(h)] + points[mesh.target(h)]) / 2)
+    , axis_((points[mesh.target(h)] - points[mesh.source(h)]).normalized())
+  {}
+
+  /// At the edge itself; positive in one of the two directions in which the surface may bend there.
+  double turn() const { return turn_between(normal(mesh_.twin[h_]), normal(h_)); }
+
+  /// Whether the line goes on from the facet of `side`, the edge or its twin, to a turn by more than `least` the same
+  /// way as at the edge: within `distance`, before it turns back by as much, and before an edge with `is_end(g)`.
+  template <class End>
+  bool turns_again(Index side, double least, double distance, const End& is_end) const
+  {
+    const double sign = (turn() > 0) == (side == h_) ? 1 : -1;
+    Vector_3 at = middle_;
+    for (int i = 0; i < most_faces; ++i) {
+      const Index g = exit(side);
+      const Vector_3 next = crossing(g);
+      distance -= (next - at).norm();
+      if (distance < 0 || mesh_.is_border(g) || is_end(g)) return false;
+      const double turn = sign * turn_between(normal(g), normal(mesh_.twin[g]));
+      if (std::abs(turn) > least) return turn > 0;
+      at = next;
+      side = mesh_.twin[g];
+    }
+    return false;
+  }
+
+  /// How far the line goes on the facet of `side`.
+  double extent(Index side) const
+  {
+    double length = 0;
+    Vector_3 at = middle_;
+    const Index face = Mesh_view::face(side);
+    for (int i = 0; i < most_faces; ++i) {
+      const Index g = exit(side);
+      const Vector_3 next = crossing(g);
+      length += (next - at).norm();
+      if (mesh_.is_border(g) || !facets_.are_one(face, Mesh_view::face(mesh_.twin[g]))) break;
+      at = next;
+      side = mesh_.twin[g];
+    }
+    return length;
+  }
+
+private:
+  static constexpr int most_faces = 64;
+
+  const Vector_3& normal(Index h) const { return facets_.at(Mesh_view::face(h)).normal; }
+
+  double height(Index v) const { return axis_.dot(points_[v] - middle_); }
+
+  /// Where the line leaves the face of `h`, which it enters there.
+  Index exit(Index h) const
+  {
+    const bool is_with_source = (height(mesh_.apex(h)) < 0) == (height(mesh_.source(h)) < 0);
+    return is_with_source ? Mesh_view::next(h) : Mesh_view::previous(h);
+  }
+
+  Vector_3 crossing(Index h) const
+  {
+    const Vector_3 &a = points_[mesh_.source(h)], &b = points_[mesh_.target(h)];
+    const double at_a = height(mesh_.source(h)), at_b = height(mesh_.target(h));
+    return a + at_a / (at_a - at_b) * (b - a);
+  }
+
+  double turn_between(const Vector_3& a, const Vector_3& b) const
+  {
+    const Vector_3 x = a - a.dot(axis_) * axis_, y = b - b.dot(axis_) * axis_;
+    return std::atan2(axis_.dot(x.cross(y)), x.dot(y));
+  }
+
+  const Mesh_view& mesh_;
+  const std::vector<Vector_3>& points_;
+  const Facets& facets_;
+  Index h_;
+  Vector_3 middle_, axis_;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_INTERNAL_EDGE_SECTION_H
