@@ -49,6 +49,7 @@ SMA::Adaptation_report adapt_on(const Options& options, Constrained_mesh& mesh, 
   const auto parameters =
     SMA::parameters::detect_features(!options.no_features)
       .feature_angle(options.feature_angle.value_or(SMA::Feature_parameters().ridge_angle))
+      .smooth_borders(options.smooth_borders)
       .edge_is_constrained_map(mesh.edge_is_constrained)
       .vertex_is_constrained_map(mesh.vertex_is_constrained)
       .maximum_number_of_vertices(options.max_vertices > 0 ? std::size_t(options.max_vertices) : std::size_t(-1))

@@ -45,6 +45,7 @@ struct Options
   double hmax = 0;
   std::optional<double> feature_angle; ///< in degrees
   bool no_features = false;
+  bool smooth_borders = false;
   bool no_weld = false;
   bool repair = false;
   int rounds = 0;
@@ -96,6 +97,8 @@ inline po::options_description described_options(Options& o)
     ("feature-angle", po::value<double>()->value_name("DEG")->notifier([&](double a) { o.feature_angle = a; }),
      "edges whose faces meet at a larger angle are kept sharp (default: 45)")
     ("no-features", po::bool_switch(&o.no_features), "do not look for sharp edges")
+    ("smooth-borders", po::bool_switch(&o.smooth_borders),
+     "keep the outlines of the planes of a CAD tessellation where fillets and the like join them smoothly")
     ("tolerance", po::value(&o.tolerance)->value_name("EPS"),
      "keep the Hausdorff distance between input and output below EPS times the diagonal of the bounding box, and certify "
      "it; if nothing else says how fine the mesh is to be, the curvature does such that this is likely")

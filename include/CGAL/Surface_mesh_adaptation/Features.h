@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Feature classification: ridges, boundaries and constrained edges, chained into curves between corners.
+// Feature classification: ridges, boundaries, constrained edges and smooth borders of planes, chained into curves
+// between corners.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_FEATURES_H
 #define CGAL_SURFACE_MESH_ADAPTATION_FEATURES_H
@@ -67,6 +68,7 @@ struct Feature_parameters
   bool detect_ridges = true;
   double ridge_angle = 45;    ///< degrees: an edge is a ridge if the normals of its faces differ by more
   double corner_angle = 60;   ///< degrees: a curve that turns by more at a vertex has a corner there
+  bool smooth_borders = false; ///< whether planes keep their outlines where something curved joins them smoothly
   std::vector<std::uint8_t> halfedge_is_constrained;
   std::vector<std::uint8_t> vertex_is_constrained;
 };
@@ -209,12 +211,11 @@ public:
     if (parameters_.detect_ridges) {
       unmark_folds(execution);
       unmark_wrong_diagonals(execution);
+      remove_short_ridges(execution);
     }
-    // what follows is sequential, but only along the features
-    feature_vertices_ = pack(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
-      return feature_degree(Index(v)) > 0;
-    });
-    if (parameters_.detect_ridges) remove_short_ridges();
+    if (parameters_.smooth_borders && features_.facets.are_chords())
+      mark_all(execution, smooth, [&](Index h) { return is_smooth_border(h); });
+    feature_vertices_ = vertices_on_features(execution); // what follows is sequential, but only along these
     features_.vertex_class.assign(mesh_.number_of_vertices(), Vertex_class::smooth);
     features_.node_of_vertex.assign(mesh_.number_of_vertices(), Curve_node());
     for_each_index(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
@@ -227,7 +228,9 @@ public:
   }
 
 private:
-  enum Mark : std::uint8_t { none = 0, ridge = 1, kept = 2 }; // kept: boundary or constrained, never filtered
+  /// Those that are `kept` are on the boundary or constrained, and never filtered; the normals on both sides of those
+  /// that are `smooth` are one.
+  enum Mark : std::uint8_t { none, ridge, kept, smooth };
 
   Vector_3 normal(Index f) const
   {
@@ -283,18 +286,25 @@ private:
   template <class Execution>
   void mark_edges_of_facets(const Execution& execution)
   {
-    mark_all(execution, [&](Index h) { return ends_plane(h); });
-    mark_all(execution, [&](Index h) { return is_single_turn(h); });
+    mark_all(execution, ridge, [&](Index h) { return ends_plane(h); });
+    mark_all(execution, ridge, [&](Index h) { return is_single_turn(h); });
   }
 
-  /// Marks the edges for which `is_sharp(h)`, which sees none of these marks.
-  template <class Execution, class Sharp>
-  void mark_all(const Execution& execution, const Sharp& is_sharp)
+  /// Marks the edges without a mark for which `predicate(h)`, which sees none of the new marks.
+  template <class Execution, class Predicate>
+  void mark_all(const Execution& execution, Mark mark, const Predicate& predicate)
   {
-    const std::vector<Index> sharp = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
-      return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) && is_sharp(Index(h));
+    const std::vector<Index> found = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
+      return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) && predicate(Index(h));
     });
-    for (const Index h : sharp) set_mark(h, ridge);
+    for (const Index h : found) set_mark(h, mark);
+  }
+
+  /// Whether a plane ends here in something curved.
+  bool is_smooth_border(Index h) const
+  {
+    const Facets& facets = features_.facets;
+    return facets.is_plane(Mesh_view::face(h)) != facets.is_plane(Mesh_view::face(mesh_.twin[h]));
   }
 
   bool ends_plane(Index h) const
@@ -436,10 +446,17 @@ private:
     return n;
   }
 
-  /// Ridges that form a short chain with an open end: touching nothing else, or still shorter, branching off others.
-  void remove_short_ridges()
+  template <class Execution>
+  std::vector<Index> vertices_on_features(const Execution& execution) const
   {
-    for (const Index v : feature_vertices_) {
+    return pack(execution, mesh_.number_of_vertices(), [&](std::size_t v) { return feature_degree(Index(v)) > 0; });
+  }
+
+  /// Ridges that form a short chain with an open end: touching nothing else, or still shorter, branching off others.
+  template <class Execution>
+  void remove_short_ridges(const Execution& execution)
+  {
+    for (const Index v : vertices_on_features(execution)) {
       if (feature_degree(v) != 1) continue;
       const std::vector<Index> chain = open_chain_from(v);
       const std::size_t shortest = feature_degree(chain.back()) == 1 ? shortest_isolated_ridge : shortest_branch;
@@ -502,9 +519,13 @@ private:
   {
     if (features_.vertex_class[v] == Vertex_class::corner) return Vertex_class::corner;
     Ring<Index> along;
-    for_each_feature_neighbor(v, [&](Index w, std::uint8_t) { along.push_back(w); });
+    std::size_t n_smooth = 0;
+    for_each_feature_neighbor(v, [&](Index w, std::uint8_t mark) {
+      along.push_back(w);
+      n_smooth += mark == smooth;
+    });
     if (along.empty()) return Vertex_class::smooth;
-    if (along.size() != 2) return Vertex_class::corner;
+    if (along.size() != 2 || n_smooth == 1) return Vertex_class::corner;
     const Vector_3 a = points_[v] - points_[along[0]], b = points_[along[1]] - points_[v];
     const bool straight = a.dot(b) >= std::cos(parameters_.corner_angle * CGAL_PI / 180) * a.norm() * b.norm();
     return straight && !is_bend_of_lines(v, along) ? Vertex_class::curve : Vertex_class::corner;
@@ -573,17 +594,22 @@ private:
   void chain_curves()
   {
     mesh_.curve.assign(mesh_.number_of_halfedges(), no_curve);
-    const auto start_chains = [&](Vertex_class kind) {
+    const auto start_chains = [&](Vertex_class kind, bool are_smooth) {
       for (const Index v : feature_vertices_) {
         if (features_.vertex_class[v] != kind) continue;
         Ring<Index> along;
-        for_each_feature_neighbor(v, [&](Index w, std::uint8_t) { along.push_back(w); });
+        for_each_feature_neighbor(v, [&](Index w, std::uint8_t mark) {
+          if ((mark == smooth) == are_smooth) along.push_back(w);
+        });
         for (Index w : along)
           if (mesh_.curve[any_halfedge(v, w)] == no_curve) add_curve(chain_from(v, w));
       }
     };
-    start_chains(Vertex_class::corner);
-    start_chains(Vertex_class::curve); // what is left are cycles
+    for (const bool are_smooth : {false, true}) {
+      if (are_smooth) mesh_.first_smooth_curve = Index(features_.curves.size());
+      start_chains(Vertex_class::corner, are_smooth);
+      start_chains(Vertex_class::curve, are_smooth); // what is left are cycles
+    }
   }
 
   Index any_halfedge(Index v, Index w) const

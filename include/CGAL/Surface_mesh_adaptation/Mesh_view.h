@@ -43,6 +43,7 @@ public:
   Buffer<Index> corner;    ///< vertex at each corner (source of each halfedge); `no_index` in removed faces
   Buffer<Index> twin;      ///< opposite halfedge, `no_index` on the boundary
   Buffer<Index> curve;     ///< feature curve of each halfedge, equal on both sides, or `no_curve`
+  Index first_smooth_curve = no_curve; ///< from it on, curves lie inside of smooth sectors
   Buffer<Index> outgoing;  ///< a halfedge that leaves each vertex: on the boundary the one without twin;
                                 ///< `no_index` for removed vertices
 
@@ -63,6 +64,8 @@ public:
 
   bool is_border(Index h) const { return twin[h] == no_index; }
   bool is_feature(Index h) const { return curve[h] != no_curve; }
+  /// Whether `h` is a feature that parts smooth sectors.
+  bool is_crease(Index h) const { return curve[h] < first_smooth_curve; }
   bool is_removed_vertex(Index v) const { return outgoing[v] == no_index; }
   bool is_removed_face(Index f) const { return corner[3 * std::size_t(f)] == no_index; }
   bool is_border_vertex(Index v) const { return is_border(outgoing[v]); }

@@ -35,7 +35,7 @@ inline Vector_3 normal_on_features(const Mesh_view& mesh, const Features& featur
                                    const Vector_3& normal)
 {
   const Index v = mesh.source(first);
-  if (features.vertex_class[v] == Vertex_class::smooth || !mesh.is_feature(first)) return normal;
+  if (features.vertex_class[v] == Vertex_class::smooth || !mesh.is_crease(first)) return normal;
   Index last = first;
   for (std::size_t i = 1; i < n; ++i) last = mesh.rotated_ccw(last);
   last = Mesh_view::previous(last); // towards the vertex, along the other curve

@@ -17,6 +17,7 @@ namespace internal_np {
 
 enum feature_angle_t { feature_angle };
 enum detect_features_t { detect_features };
+enum smooth_borders_t { smooth_borders };
 enum output_metric_map_t { output_metric_map };
 enum surface_reconstruction_t { surface_reconstruction };
 enum fit_to_surface_t { fit_to_surface };

@@ -150,6 +150,7 @@ public:
   void build(const Execution& execution, Mesh_view& result, std::size_t expected_vertices = 0) const
   {
     const std::size_t n = 3 * std::size_t(number_of_faces_), expected = 6 * expected_vertices;
+    result.first_smooth_curve = mesh_.first_smooth_curve;
     resize_and_forget(result.corner, n, expected);
     resize_and_forget(result.twin, n, expected);
     resize_and_forget(result.curve, n, expected);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Vertex normals, one per smooth sector: features cut the fan of a vertex into sectors with a normal each.
+// Vertex normals, one per smooth sector: creases cut the fan of a vertex into sectors with a normal each.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_VERTEX_NORMALS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_VERTEX_NORMALS_H
@@ -37,19 +37,19 @@ inline Vector_3 face_normal(const Mesh_view& mesh, const std::vector<Vector_3>& 
 template <class Sector>
 void for_each_sector(const Mesh_view& mesh, Index v, const Sector& sector)
 {
-  std::size_t n = 0, features = 0;
+  std::size_t n = 0, creases = 0;
   mesh.for_each_outgoing(v, [&](Index h) {
     ++n;
-    features += mesh.is_feature(h);
+    creases += mesh.is_crease(h);
   });
-  if (features == 0) return sector(mesh.outgoing[v], n);
+  if (creases == 0) return sector(mesh.outgoing[v], n);
   Ring<Index> fan;
   mesh.for_each_outgoing(v, [&](Index h) { fan.push_back(h); });
   std::size_t start = 0;
-  while (!mesh.is_feature(fan[start])) ++start;
+  while (!mesh.is_crease(fan[start])) ++start;
   for (std::size_t i = 0; i < n;) {
     std::size_t length = 1;
-    while (i + length < n && !mesh.is_feature(fan[(start + i + length) % n])) ++length;
+    while (i + length < n && !mesh.is_crease(fan[(start + i + length) % n])) ++length;
     sector(fan[(start + i) % n], length);
     i += length;
   }

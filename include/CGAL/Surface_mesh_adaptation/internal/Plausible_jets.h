@@ -30,7 +30,7 @@ public:
                  const Sector_neighborhood& neighbors)
     : mesh_(mesh), points_(points), vertex_(points[mesh.source(first)])
   {
-    const bool is_open = mesh.is_feature(first) || mesh.is_border(first);
+    const bool is_open = mesh.is_crease(first) || mesh.is_border(first);
     for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h)) {
       sector_.add(face_normal(mesh, points, h));
       facets_.push_back(h);

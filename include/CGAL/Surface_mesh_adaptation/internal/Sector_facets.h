@@ -28,7 +28,7 @@ public:
                 std::size_t n)
     : facets_(facets)
   {
-    const bool is_closed = !mesh.is_feature(first) && !mesh.is_border(first);
+    const bool is_closed = !mesh.is_crease(first) && !mesh.is_border(first);
     if (is_closed) first = start_of_facet(mesh, first, n);
     for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h)) {
       const Index face = Mesh_view::face(h);
@@ -44,7 +44,7 @@ public:
       const double next2 = (points[mesh.target(c.first)] - points[mesh.source(c.first)]).squaredNorm();
       has_split_side_ = has_split_side_ || c.right.squaredNorm() > next2;
     }
-    is_in_one_row_ = !is_closed && ends_on_features(mesh);
+    is_in_one_row_ = !is_closed && ends_on_creases(mesh);
   }
 
   /// The largest plane of the shape among them, or null.
@@ -115,13 +115,13 @@ private:
     return first;
   }
 
-  /// Whether all sides between the facets of an open sector end on features again.
-  bool ends_on_features(const Mesh_view& mesh) const
+  /// Whether all sides between the facets of an open sector end on creases again.
+  bool ends_on_creases(const Mesh_view& mesh) const
   {
     const auto ends = [&](const Corner& c) {
-      bool is_on_feature = false;
-      mesh.for_each_outgoing(mesh.target(c.first), [&](Index h) { is_on_feature |= mesh.is_feature(h); });
-      return is_on_feature;
+      bool is_on_crease = false;
+      mesh.for_each_outgoing(mesh.target(c.first), [&](Index h) { is_on_crease |= mesh.is_crease(h); });
+      return is_on_crease;
     };
     return corners_.size() > 1 && std::all_of(corners_.begin() + 1, corners_.end(), ends);
   }

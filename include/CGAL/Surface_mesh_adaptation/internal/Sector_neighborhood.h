@@ -19,7 +19,7 @@ namespace Surface_mesh_adaptation {
 namespace internal {
 
 /// The neighbourhood of a smooth sector of a vertex: what can be reached from its faces over faces that share a vertex,
-/// without crossing a feature edge or the boundary, or into a plane of the shape or a facet that is far
+/// without crossing a crease or the boundary, or into a plane of the shape or a facet that is far
 /// larger or smaller than the first one. The vertex itself does not belong to it.
 class Sector_neighborhood
 {
@@ -88,7 +88,7 @@ private:
 
   bool can_cross(Index h) const
   {
-    return !mesh_.is_feature(h) && !mesh_.is_border(h) && is_akin(Mesh_view::face(mesh_.twin[h]));
+    return !mesh_.is_crease(h) && !mesh_.is_border(h) && is_akin(Mesh_view::face(mesh_.twin[h]));
   }
 
   /// Whether face `f` may be of the same smooth piece: the curvature jumps where planes and rulings begin.

@@ -42,6 +42,7 @@ Feature_parameters feature_parameters(const FaceGraph& graph, const Imported_mes
   Feature_parameters p;
   p.ridge_angle = choose(np, internal_np::feature_angle, p.ridge_angle);
   p.detect_ridges = choose(np, internal_np::detect_features, p.detect_ridges);
+  p.smooth_borders = choose(np, internal_np::smooth_borders, p.smooth_borders);
   if (!(p.ridge_angle > 0 && p.ridge_angle <= 180))
     throw Invalid_parameter_error("the feature angle must lie between 0 and 180 degrees");
   if constexpr (has_parameter<NamedParameters, CGAL::internal_np::edge_is_constrained_t>) {

@@ -13,6 +13,7 @@ CGAL_SMA_NAMED_PARAMETER(CGAL::internal_np::visitor_t, visitor)
 // of this package
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::feature_angle_t, feature_angle)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::detect_features_t, detect_features)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::smooth_borders_t, smooth_borders)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::output_metric_map_t, output_metric_map)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::surface_reconstruction_t, surface_reconstruction)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::fit_to_surface_t, fit_to_surface)
