@@ -73,6 +73,7 @@ SMA::Adaptation_report adapt(Random& random, Mesh& mesh, const Field& field)
   const auto parameters =
     SMA::parameters::detect_features(!random.chance(0.2))
       .feature_angle(random.chance(0.7) ? 45 : random.uniform(1, 180))
+      .smooth_borders(random.chance(0.3))
       .edge_is_constrained_map(edge_map)
       .vertex_is_constrained_map(vertex_map)
       .tolerance(random.chance(0.15) ? random.magnitude(1e-3, 1) * mean_edge(shapes::soup(mesh)) : infinity)

@@ -573,6 +573,103 @@ TEST(Cad_tessellations, of_shafts_have_four_circles_of_creases)
     }
 }
 
+// Smooth borders
+
+/// What comes out with smooth borders, and which edges of it are features.
+struct Bordered
+{
+  Soup soup;
+  std::vector<std::pair<Vector_3, Vector_3>> edges;
+
+  double length() const
+  {
+    double sum = 0;
+    for (const auto& [a, b] : edges) sum += (a - b).norm();
+    return sum;
+  }
+};
+
+template <class Execution = SMA::Sequential_execution>
+Bordered bordered(const Soup& soup, double size, const Execution& execution = sequential)
+{
+  auto mesh = shapes::mesh<Surface_mesh>(soup);
+  auto is_feature = mesh.add_property_map<Surface_mesh::Edge_index, bool>("e:is_feature", false).first;
+  SMA::adapt_surface_mesh(execution, mesh, SMA::Uniform_metric_field(size),
+                          SMA::parameters::smooth_borders(true).edge_is_constrained_map(is_feature));
+  Bordered result{shapes::soup(mesh), {}};
+  const auto point = [&](Surface_mesh::Vertex_index v) -> Vector_3 {
+    const auto& p = mesh.point(v);
+    return {p.x(), p.y(), p.z()};
+  };
+  for (const auto e : edges(mesh))
+    if (get(is_feature, e)) result.edges.emplace_back(point(mesh.vertex(e, 0)), point(mesh.vertex(e, 1)));
+  return result;
+}
+
+TEST(Smooth_borders, of_a_rounded_box_are_lines_and_arcs_with_vertices_on_them)
+{
+  const Vector_3 half(2, 1, 0.6);
+  const double r = 0.3;
+  const Vector_3 inner = half - Vector_3(r, r, r);
+  for (const int k : {4, 8})
+    for (const Variant& variant : variants()) {
+      if (variant.split_edges > 0) continue;
+      SCOPED_TRACE(variant.name + ", " + std::to_string(k));
+      const Part part = rounded_box(half, r, k);
+      const Placed input = placed(part, variant, 1);
+      const Bordered result = bordered(input.soup, part.size);
+      for (const auto& [a, b] : result.edges)
+        for (const Vector_3& x : {a, b}) // all borders lie in the planes through the centers of the fillets
+          EXPECT_LE((input.back(x).cwiseAbs() - inner).cwiseAbs().minCoeff(), 20 * input.rounding);
+      const double length = 16 * inner.sum() + 12 * pi * r; // the sides of all planes, and the arcs around all corners
+      EXPECT_NEAR(result.length(), length, 0.003 * length);
+      const Errors e = errors(part, input, result.soup);
+      EXPECT_LE(e.flat, 20 * input.rounding);
+      EXPECT_LE(e.largest, 0.25 * part.sag + 20 * input.rounding);
+      EXPECT_LE(e.rms, 0.05 * part.sag + 20 * input.rounding);
+    }
+}
+
+TEST(Smooth_borders, of_a_rounded_frustum_are_circles)
+{
+  for (const std::size_t n : {24, 48}) {
+    const Part part = rounded_frustum(n, 5);
+    const Placed input = placed(part, {}, 1);
+    const Bordered result = bordered(input.soup, part.size);
+    std::map<long, double> length, radius; // at heights in millionths
+    for (const auto& [a, b] : result.edges) {
+      const long height = std::lround(1e6 * a[2]);
+      EXPECT_NEAR(a[2], b[2], 1e-9);
+      length[height] += (a - b).norm();
+      radius[height] = std::hypot(a[0], a[1]);
+      for (const Vector_3& x : {a, b}) EXPECT_LE(std::abs(part.distance(x)), 0.1 * part.sag);
+    }
+    EXPECT_EQ(length.size(), 4u); // both ends of both arcs
+    for (const auto& [height, r] : radius) EXPECT_NEAR(length[height], 2 * pi * r, 0.01 * r);
+    EXPECT_LE(errors(part, input, result.soup).flat, 20 * input.rounding);
+  }
+}
+
+TEST(Smooth_borders, do_not_split_normals)
+{
+  const Soup soup = placed(rounded_box({2, 1, 0.6}, 0.3, 4), {}, 1).soup;
+  SMA::Mesh_view mesh = shapes::view(soup);
+  SMA::Feature_parameters parameters;
+  parameters.smooth_borders = true;
+  EXPECT_FALSE(SMA::detect_features(sequential, mesh, soup.points, parameters).curves.empty());
+  EXPECT_EQ(SMA::estimate_normals(sequential, mesh, soup.points).normals.size(), soup.points.size());
+}
+
+TEST(Smooth_borders, are_kept_alike_by_all_policies)
+{
+  const Part part = rounded_box({2, 1, 0.6}, 0.3, 4);
+  const Placed input = placed(part, {}, 1);
+  const Soup expected = bordered(input.soup, part.size).soup;
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    EXPECT_TRUE(checks::is_identical(expected, bordered(input.soup, part.size, execution).soup)) << name;
+  });
+}
+
 // Overshoot
 
 double area(const Soup& soup)

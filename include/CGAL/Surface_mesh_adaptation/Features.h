@@ -10,7 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
-#include <CGAL/Surface_mesh_adaptation/internal/Edge_section.h>
+#include <CGAL/Surface_mesh_adaptation/internal/Facet_edges.h>
 #include <CGAL/Surface_mesh_adaptation/internal/cubic_curve.h>
 
 #include <CGAL/number_type_config.h>
@@ -109,17 +109,6 @@ constexpr double cosine_at_point = 0.8;
 /// Cosine of the angle, 150 degrees, by which faces turn where one of them is folded over.
 constexpr double cosine_of_fold = -0.866;
 
-/// Where a plane ends smoothly in something curved, the turn is half of that from facet to facet there. If it is more
-/// than all of it by this, five degrees, the plane ends in an edge.
-constexpr double least_turn_beside_rows = 0.087;
-
-/// A turn is a single one if the surface turns no more than this part of it again on either side.
-constexpr double largest_turn_again = 1.0 / 3;
-
-/// Turns that are less than this, five degrees, or ten where the facets are longer along the edge than across, are what
-/// diagonals make of something smooth.
-constexpr double least_turn_across_strips = 0.087, least_turn_along_strips = 0.174;
-
 /// Whoever asks for ridges from this angle on, in degrees, wants no edges between planes either.
 constexpr double largest_angle_for_planes = 90;
 
@@ -213,8 +202,7 @@ public:
       unmark_wrong_diagonals(execution);
       remove_short_ridges(execution);
     }
-    if (parameters_.smooth_borders && features_.facets.are_chords())
-      mark_all(execution, smooth, [&](Index h) { return is_smooth_border(h); });
+    if (parameters_.smooth_borders && features_.facets.are_chords()) mark_smooth_borders(execution);
     feature_vertices_ = vertices_on_features(execution); // what follows is sequential, but only along these
     features_.vertex_class.assign(mesh_.number_of_vertices(), Vertex_class::smooth);
     features_.node_of_vertex.assign(mesh_.number_of_vertices(), Curve_node());
@@ -282,12 +270,14 @@ private:
            parameters_.ridge_angle < largest_angle_for_planes;
   }
 
+  Facet_edges facet_edges() const { return {mesh_, points_, features_.facets, is_feature_}; }
+
   /// Marks where planes end at an angle, and then where else the surface turns once.
   template <class Execution>
   void mark_edges_of_facets(const Execution& execution)
   {
-    mark_all(execution, ridge, [&](Index h) { return ends_plane(h); });
-    mark_all(execution, ridge, [&](Index h) { return is_single_turn(h); });
+    mark_all(execution, ridge, [&](Index h) { return facet_edges().ends_plane(h); });
+    mark_all(execution, ridge, [&](Index h) { return facet_edges().is_single_turn(h); });
   }
 
   /// Marks the edges without a mark for which `predicate(h)`, which sees none of the new marks.
@@ -300,38 +290,28 @@ private:
     for (const Index h : found) set_mark(h, mark);
   }
 
-  /// Whether a plane ends here in something curved.
-  bool is_smooth_border(Index h) const
+  /// Borders neither end nor begin within a smooth piece: what does is a few facets that happen to be so.
+  template <class Execution>
+  void mark_smooth_borders(const Execution& execution)
   {
-    const Facets& facets = features_.facets;
-    return facets.is_plane(Mesh_view::face(h)) != facets.is_plane(Mesh_view::face(mesh_.twin[h]));
+    mark_all(execution, smooth, [&](Index h) { return facet_edges().is_smooth_border(h); });
+    for (const Index v : vertices_on_features(execution))
+      for (Index w = v; w != no_index;) w = retracted(w);
   }
 
-  bool ends_plane(Index h) const
+  /// Unmarks the smooth edge that ends at `v`, where no other feature is, and returns its other end; `no_index` if there
+  /// is none.
+  Index retracted(Index v)
   {
-    const Facet &f = features_.facets.at(Mesh_view::face(h)), &g = features_.facets.at(Mesh_view::face(mesh_.twin[h]));
-    if (&f == &g || !(f.is_plane || g.is_plane)) return false;
-    const double turn = angle_between(f.normal, g.normal);
-    if (f.is_plane && g.is_plane) return turn > least_turn_between_planes;
-    const Facet& curved = f.is_plane ? g : f;
-    return curved.faces > 1 && curved.turn > 0 && turn > curved.turn + least_turn_beside_rows;
-  }
-
-  /// Whether the surface turns at `h` and next to it on neither side again alike: from one row of strips to another
-  /// one, say. Triangles alone turn as they happen to.
-  bool is_single_turn(Index h) const
-  {
-    const Facets& facets = features_.facets;
-    const Index t = mesh_.twin[h], f = Mesh_view::face(h), g = Mesh_view::face(t);
-    if (facets.are_one(f, g) || facets.at(f).faces + facets.at(g).faces < 3) return false;
-    const Edge_section section(mesh_, points_, facets, h);
-    const double turn = std::abs(section.turn()), distance = section.extent(h) + section.extent(t);
-    const bool is_across = distance * distance > squared_length(h);
-    if (!(turn > (is_across ? least_turn_across_strips : least_turn_along_strips))) return false;
-    const auto turns_again = [&](Index side) {
-      return section.turns_again(side, largest_turn_again * turn, distance, [&](Index e) { return is_marked(e); });
-    };
-    return !turns_again(h) && !turns_again(t);
+    Index other = no_index;
+    std::size_t degree = 0;
+    for_each_feature_neighbor(v, [&](Index w, std::uint8_t mark) {
+      ++degree;
+      other = mark == smooth ? w : no_index;
+    });
+    if (degree != 1 || other == no_index) return no_index;
+    set_mark(any_halfedge(v, other), none);
+    return other;
   }
 
   /// Folds are noise rather than shapes, and their normals mean nothing: that of the face behind the longest edge, on

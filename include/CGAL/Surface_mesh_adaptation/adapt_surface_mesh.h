@@ -122,6 +122,12 @@ step at the end: if anything throws, it is as it was.
     \cgalParamType{`bool`}
     \cgalParamDefault{`true`}
   \cgalParamNEnd
+  \cgalParamNBegin{smooth_borders}
+    \cgalParamDescription{whether edges stay on the lines where planes of a CAD tessellation, cylinders and cones end
+                          smoothly, as in fillets: curves like ridges, along which the surface has one normal}
+    \cgalParamType{`bool`}
+    \cgalParamDefault{`false`}
+  \cgalParamNEnd
   \cgalParamNBegin{edge_is_constrained_map}
     \cgalParamDescription{edges that are features as ridges are: they stay chains of edges, which are split and
                           collapsed}
