@@ -428,6 +428,36 @@ Part drilled_plate(int k)
   return part;
 }
 
+/// A plate of which the four upright edges are rounded, in `k` chords each: long edges and short ones on its outlines.
+Part rounded_plate(int k)
+{
+  constexpr double x = 1.6, y = 0.6, r = 0.4, h = 0.2;
+  std::vector<Vector_3> top, bottom;
+  for (int q = 0; q < 4; ++q)
+    for (int i = 0; i <= k; ++i) {
+      const double t = (q + double(i) / k) * pi / 2;
+      top.push_back({(q == 0 || q == 3 ? x : -x) + r * std::cos(t), (q < 2 ? y : -y) + r * std::sin(t), h});
+      bottom.insert(bottom.begin(), {top.back()[0], top.back()[1], -h});
+    }
+  Part part;
+  part.polygons.add(top);
+  part.polygons.add(bottom);
+  const std::size_t n = top.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    part.polygons.add({bottom[n - 1 - i], bottom[n - 1 - j], top[j], top[i]});
+  }
+  part.distance = [=](const Vector_3& p) {
+    const double dx = std::abs(p[0]) - x, dy = std::abs(p[1]) - y, dz = std::abs(p[2]) - h;
+    const double d = std::hypot((std::max)(dx, 0.0), (std::max)(dy, 0.0)) + (std::min)(0.0, (std::max)(dx, dy)) - r;
+    return std::hypot((std::max)(d, 0.0), (std::max)(dz, 0.0)) + (std::min)(0.0, (std::max)(d, dz));
+  };
+  part.is_flat = [=](const Vector_3& p) { return std::abs(p[0]) < x - 1e-6 || std::abs(p[1]) < y - 1e-6; };
+  part.sag = r * (1 - std::cos(pi / (4 * k)));
+  part.size = 0.08;
+  return part;
+}
+
 /// A box with sharp edges.
 Part box()
 {
@@ -519,6 +549,19 @@ TEST(Cad_tessellations, of_a_knob_keep_the_circles_where_its_pieces_meet)
 {
   expect_errors(knob(30, 1), {0.5, 0.25}, {10, 0.8});
   expect_errors(knob(90, 1), {0.5, 0.25}, {10, 0.8});
+}
+
+TEST(Cad_tessellations, of_a_rounded_plate_round_the_arcs_between_long_edges)
+{
+  for (const int k : {5, 16})
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      const Part part = rounded_plate(k);
+      const Placed input = placed(part, {}, seed);
+      const Errors e = errors(part, input, adapted(input.soup, part.size));
+      EXPECT_LE(e.flat, 20 * input.rounding);
+      EXPECT_LE(e.largest, 0.1 * part.sag);
+      EXPECT_LE(e.rms, 0.05 * part.sag);
+    }
 }
 
 TEST(Cad_tessellations, of_a_box_stay_flat_with_fans_of_slivers)
