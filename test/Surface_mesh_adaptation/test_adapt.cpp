@@ -107,7 +107,7 @@ std::vector<Case> cases()
 
 INSTANTIATE_TEST_SUITE_P(Adapt, Real_mesh, ::testing::ValuesIn(cases()), name_of_case);
 
-// The chamfers of this part are narrower than half of its edges, and turn by about 45 degrees: less than what is marked.
+// The chamfers of this part are narrower than half of its edges, and turn by about 45 degrees: less than is marked.
 TEST(Adapt, crosses_chamfers_that_are_no_features)
 {
   Mesh mesh = real_mesh<Mesh>("couplingdown");

@@ -299,8 +299,8 @@ private:
       for (Index w = v; w != no_index;) w = retracted(w);
   }
 
-  /// Unmarks the smooth edge that ends at `v`, where no other feature is, and returns its other end; `no_index` if there
-  /// is none.
+  /// Unmarks the smooth edge that ends at `v`, where no other feature is, and returns its other end, or `no_index` if
+  /// there is none.
   Index retracted(Index v)
   {
     Index other = no_index;
