@@ -776,6 +776,45 @@ TEST(Overshoot, outlines_of_edges_of_all_lengths_bulge_by_a_fraction_of_these)
   }
 }
 
+double height(const Vector_3& a, const Vector_3& b, const Vector_3& c)
+{
+  return (b - a).cross(c - a).norm() / (std::max)({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+}
+
+/// The least height of the triangles, and the length of the longest edge.
+std::pair<double, double> extremes(const Soup& soup)
+{
+  double least = 1e300, longest = 0;
+  for (const shapes::Triangle& t : soup.triangles) {
+    const Vector_3 &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
+    least = (std::min)(least, height(a, b, c));
+    longest = (std::max)({longest, (b - a).norm(), (c - b).norm(), (a - c).norm()});
+  }
+  return {least, longest};
+}
+
+TEST(Overshoot, long_faces_with_chamfered_ends_are_refined)
+{
+  Random random(1);
+  for (int i = 0; i < 10; ++i) {
+    SCOPED_TRACE(i);
+    Part part;
+    const double w = random.real(0.5, 2), length = random.real(50, 200), width = random.real(5, 20);
+    const std::vector<Vector_3> top{{w, 0, 5},          {length - w, 0, 5},      {length, w, 5}, {length, width - w, 5},
+                                    {length - w, width, 5}, {w, width, 5}, {0, width - w, 5}, {0, w, 5}};
+    std::vector<Vector_3> bottom;
+    for (const Vector_3& p : top) bottom.insert(bottom.begin(), Vector_3(p[0], p[1], 0));
+    part.polygons.add(top);
+    part.polygons.add(bottom);
+    for (std::size_t k = 0; k < 8; ++k)
+      part.polygons.add({bottom[7 - k], bottom[7 - (k + 1) % 8], top[(k + 1) % 8], top[k]});
+    part.is_flat = [](const Vector_3&) { return true; };
+    const auto [least, longest] = extremes(adapted(placed(part, {}, std::uint64_t(i)).soup, 2));
+    EXPECT_GE(least, 0.1);
+    EXPECT_LE(longest, 4);
+  }
+}
+
 TEST(Cad_tessellations, whose_smooth_surface_leaves_them_by_several_tolerances_are_warned_of)
 {
   const auto warnings = [](int k) {

@@ -251,7 +251,7 @@ public:
 
   /// Where an edge is split: the middle of its arc on a feature curve, else the point of the surface next to about the
   /// middle of the edge, reached from a neighbouring vertex in the same smooth sector. Where the walk from one of them
-  /// ends at a feature that lies in between, the next one is tried.
+  /// ends at a feature that lies in between, the next one is tried; at a thin face, all faces around those on features.
   Placed_vertex<Metric> middle(Index h) const
   {
     const Index a = (std::min)(mesh.source(h), mesh.target(h)), b = (std::max)(mesh.source(h), mesh.target(h));
@@ -273,10 +273,15 @@ public:
     for (Index v : {a, b, mesh.apex(h), mesh.apex(mesh.twin[h])})
       if (vertex_class(v) == Vertex_class::smooth && !(best_distance >= 0 && best_distance <= split_distance * length))
         try_from({locations[v], {points[v], normals[v]}});
-    if (best_distance < 0) {
-      const Location start = reference_->smooth_location_near(locations[a], target);
-      try_from({start, reference_->evaluate(start)});
-    }
+    const auto try_from_location = [&](const Location& start) { try_from({start, reference_->evaluate(start)}); };
+    if (best_distance < 0) try_from_location(reference_->smooth_location_near(locations[a], target));
+    const double height = least_height_at(h);
+    if (height < thin_height * length && best_distance > split_distance * height)
+      for (Index v : {a, b, mesh.apex(h), mesh.apex(mesh.twin[h])})
+        if (vertex_class(v) != Vertex_class::smooth)
+          reference_->for_each_location_near(locations[v], target, [&](const Location& start) {
+            if (best_distance > split_distance * height) try_from_location(start);
+          });
     return place(best.location, best.point);
   }
 
@@ -380,6 +385,14 @@ public:
   }
 
 private:
+  /// The lesser height above the edge of `h`, which is not on the boundary, of the two faces there.
+  double least_height_at(Index h) const
+  {
+    const Vector_3 &p = points[mesh.source(h)], e = points[mesh.target(h)] - p;
+    const auto double_area = [&](Index apex) { return e.cross(points[apex] - p).norm(); };
+    return (std::min)(double_area(mesh.apex(h)), double_area(mesh.apex(mesh.twin[h]))) / e.norm();
+  }
+
   /// In which ratio the edge of `h`, from `a` to `b`, is split: in halves, but for the diagonals of a lattice of
   /// right-angled faces. Halves would make a finer lattice, whose edges conform to the metric, and which is in balance
   /// for moves and swaps, though the quality of its faces is .866. An uneven start lets these find better ones.
@@ -422,6 +435,7 @@ private:
   static constexpr double lattice_quality = 0.87; // of a right-angled face: .866
   static constexpr double max_shift = 0.2;        // of a split, in lengths of the edge
   static constexpr double split_precision = 0.02; // of the edge: later moves undo the rest
+  static constexpr double thin_height = 0.1;      // of a face, in lengths of the edge: the next feature is near
   static constexpr double split_distance = 0.2;   // of the edge: more means that the walk did not get there
 
   static constexpr double share_of_bulge = 0.25;  // of the tolerance: the rest is for the faces between the points

@@ -204,6 +204,18 @@ public:
     return x;
   }
 
+  /// Calls `f(start)` for a location in each face around a curve or corner location, from which to walk to `target`: about
+  /// the closest to it, but inside of the face, where all ways are open.
+  template <class F>
+  void for_each_location_near(const Location& l, const Vector_3& target, const F& f) const
+  {
+    for_each_incident_face(l, [&](Index face) {
+      const Location x = closest_location_in_face(face, target);
+      constexpr double inwards = 1e-3, w = 1 - 3 * inwards;
+      f(Location{Vertex_class::smooth, face, w * x.u + inwards, w * x.v + inwards});
+    });
+  }
+
   /// A smooth location in the faces around a curve or corner location, from which to walk to `target`: the closest
   /// point to `target` among those faces.
   Location smooth_location_near(const Location& l, const Vector_3& target) const
