@@ -428,25 +428,34 @@ Part drilled_plate(int k)
   return part;
 }
 
+/// The prism below the polygon `top`, which is at one height, down to the height `z`.
+Polygons prism(const std::vector<Vector_3>& top, double z)
+{
+  std::vector<Vector_3> bottom;
+  for (const Vector_3& p : top) bottom.insert(bottom.begin(), Vector_3(p[0], p[1], z));
+  Polygons result;
+  result.add(top);
+  result.add(bottom);
+  const std::size_t n = top.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    result.add({bottom[n - 1 - i], bottom[n - 1 - j], top[j], top[i]});
+  }
+  return result;
+}
+
 /// A plate of which the four upright edges are rounded, in `k` chords each: long edges and short ones on its outlines.
 Part rounded_plate(int k)
 {
   constexpr double x = 1.6, y = 0.6, r = 0.4, h = 0.2;
-  std::vector<Vector_3> top, bottom;
+  std::vector<Vector_3> top;
   for (int q = 0; q < 4; ++q)
     for (int i = 0; i <= k; ++i) {
       const double t = (q + double(i) / k) * pi / 2;
       top.push_back({(q == 0 || q == 3 ? x : -x) + r * std::cos(t), (q < 2 ? y : -y) + r * std::sin(t), h});
-      bottom.insert(bottom.begin(), {top.back()[0], top.back()[1], -h});
     }
   Part part;
-  part.polygons.add(top);
-  part.polygons.add(bottom);
-  const std::size_t n = top.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t j = (i + 1) % n;
-    part.polygons.add({bottom[n - 1 - i], bottom[n - 1 - j], top[j], top[i]});
-  }
+  part.polygons = prism(top, -h);
   part.distance = [=](const Vector_3& p) {
     const double dx = std::abs(p[0]) - x, dy = std::abs(p[1]) - y, dz = std::abs(p[2]) - h;
     const double d = std::hypot((std::max)(dx, 0.0), (std::max)(dy, 0.0)) + (std::min)(0.0, (std::max)(dx, dy)) - r;
@@ -746,18 +755,9 @@ Part bar(Random& random)
   std::vector<double> angles;
   for (double a = 0; a < 2 * pi - 0.3; a += random.real() < 0.5 ? random.real(0.02, 0.2) : random.real(0.3, 0.7))
     angles.push_back(a);
-  std::vector<Vector_3> top, bottom;
-  for (const double a : angles) {
-    top.push_back({10 * std::cos(a), 3 * std::sin(a), 1});
-    bottom.insert(bottom.begin(), {10 * std::cos(a), 3 * std::sin(a), -1});
-  }
-  part.polygons.add(top);
-  part.polygons.add(bottom);
-  const std::size_t n = top.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t j = (i + 1) % n;
-    part.polygons.add({bottom[n - 1 - i], bottom[n - 1 - j], top[j], top[i]});
-  }
+  std::vector<Vector_3> top;
+  for (const double a : angles) top.push_back({10 * std::cos(a), 3 * std::sin(a), 1});
+  part.polygons = prism(top, -1);
   part.is_flat = [](const Vector_3&) { return true; };
   return part;
 }
@@ -802,12 +802,7 @@ TEST(Overshoot, long_faces_with_chamfered_ends_are_refined)
     const double w = random.real(0.5, 2), length = random.real(50, 200), width = random.real(5, 20);
     const std::vector<Vector_3> top{{w, 0, 5},          {length - w, 0, 5},      {length, w, 5}, {length, width - w, 5},
                                     {length - w, width, 5}, {w, width, 5}, {0, width - w, 5}, {0, w, 5}};
-    std::vector<Vector_3> bottom;
-    for (const Vector_3& p : top) bottom.insert(bottom.begin(), Vector_3(p[0], p[1], 0));
-    part.polygons.add(top);
-    part.polygons.add(bottom);
-    for (std::size_t k = 0; k < 8; ++k)
-      part.polygons.add({bottom[7 - k], bottom[7 - (k + 1) % 8], top[(k + 1) % 8], top[k]});
+    part.polygons = prism(top, 0);
     part.is_flat = [](const Vector_3&) { return true; };
     const auto [least, longest] = extremes(adapted(placed(part, {}, std::uint64_t(i)).soup, 2));
     EXPECT_GE(least, 0.1);
