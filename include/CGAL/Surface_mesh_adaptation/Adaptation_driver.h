@@ -6,6 +6,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_ADAPTATION_DRIVER_H
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
+#include <CGAL/Surface_mesh_adaptation/Excess_deviation.h>
 #include <CGAL/Surface_mesh_adaptation/Sampled_points.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Fitting.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Refinement.h>
@@ -43,13 +44,13 @@ public:
     , relocation_(execution, surface, {})
   {}
 
-  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, a few more in a scaled metric,
-  /// several times. In the end the vertices are fitted to the surface if `is_fitted`; `std::false_type` spares users the
+  /// At most `rounds` rounds; then, if a number of vertices or a deviation is asked for and missed, a few more in a scaled
+  /// or tightened metric, several times. In the end the vertices are fitted to the surface if `is_fitted`; `std::false_type` spares users the
   /// time to compile that. The smaller the `shape_weight`, the nearer they come.
   template <class IsFitted = std::false_type>
-  Adaptation_report run(std::size_t rounds, double number_of_vertices = 0, IsFitted is_fitted = {},
-                        double shape_weight = default_shape_weight)
+  Adaptation_report run(std::size_t rounds, IsFitted is_fitted = {}, double shape_weight = default_shape_weight)
   {
+    const double number_of_vertices = surface_.background().aims().number_of_vertices;
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
     is_adapted_ = report_.initial.in_range > adapted_share;
@@ -58,6 +59,7 @@ public:
     do_rounds(rounds, report_.initial);
     if (number_of_vertices > 0) meet_number(number_of_vertices);
     refinement_.compact();
+    if (rounds > 0 && surface_.background().aims().deviation > 0) meet_deviation(surface_.background().aims().deviation);
     if constexpr (!std::is_same_v<IsFitted, std::false_type>)
       if (is_fitted) fit(shape_weight);
     report_.final = number_of_vertices > 0 || is_fitted ? mesh_statistics(execution_, surface_) : current();
@@ -131,6 +133,21 @@ private:
       do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
     }
     surface_.scale_metric(execution_, std::exp(-scale));
+  }
+
+  /// Tightens the metric where faces leave the surface by more than `allowed`, and adapts the mesh to that.
+  void meet_deviation(double allowed)
+  {
+    for (int i = 0; !report_.stopped; ++i) {
+      const Excess_deviation deviation(execution_, surface_, safety_of_deviation * allowed);
+      report_.deviation = deviation.largest();
+      if (!(deviation.largest() > allowed) || i == max_corrections_of_deviation) break;
+      surface_.set_background(execution_, surface_.background().tightened(execution_, surface_.reference(),
+                                                                          deviation.excess()));
+      find_work();
+      do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
+      refinement_.compact();
+    }
   }
 
   /// The logarithm of the scale at which as many edges leave the range as vertices are `missing`, or too many: a mesh
@@ -207,8 +224,22 @@ private:
     if (refinement_.is_at_limit())
       report_.warnings.push_back("refinement was stopped at " + std::to_string(report_.final.vertices) +
                                  " vertices, far above what the metric asks for or at what is possible");
+    if (const double allowed = surface_.background().aims().deviation; allowed > 0) warn_of_deviation(allowed);
     if (report_.final.in_range < expected_share)
       report_.warnings.push_back("only " + percent(report_.final.in_range) + " of the edges have the length asked for");
+  }
+
+  void warn_of_deviation(double allowed)
+  {
+    const auto times = [&](double x) { return internal::number(std::round(10 * x / allowed) / 10) + " times"; };
+    if (report_.deviation > expected_excess * allowed)
+      report_.warnings.push_back("faces are up to " + times(report_.deviation) +
+                                 " the tolerance of the sizes away from the surface");
+    // patches bulge by less than a quarter of the length of their edges
+    const double bulge = largest_bulge(execution_, surface_.reference(), 4 * largest_bulge_unsaid * allowed);
+    if (bulge > largest_bulge_unsaid * allowed)
+      report_.warnings.push_back("the smooth surface leaves the faces of the input by up to " + times(bulge) +
+                                 " the tolerance of the sizes: the input is coarse for that");
   }
 
   void fit(double shape_weight)
@@ -291,10 +322,14 @@ private:
   static constexpr double largest_scale = 1.2;           // of the metric meanwhile, its logarithm: lengths by 1.8
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
+  static constexpr int max_corrections_of_deviation = 4;
+  static constexpr double safety_of_deviation = 0.85;    // once it was missed
   static constexpr int least_steps_of_fit = 4, max_steps_of_fit = 16;
   static constexpr double min_fitted_quality = 0.5;
   static constexpr double adapted_share = 0.95;          // of the edges in range
   static constexpr double expected_share = 0.8;          // of the edges in range in the end: less is not usual
+  static constexpr double expected_excess = 1.3;         // of distances over the tolerance of sizes from the curvature
+  static constexpr double largest_bulge_unsaid = 4;      // of patches, the same
   static constexpr double least_gain = 0.0015;           // in the share of edges in range or in mean quality
 
   const Execution& execution_;

@@ -58,6 +58,8 @@ struct Adaptation_report
   double tolerance = 0;            ///< largest distance allowed between input and output; 0: none was asked for
   double certified_distance = 0;   ///< if one was: an upper bound of their Hausdorff distance, by 2 % of it too large
                                    ///< at most
+  double deviation = 0;            ///< largest distance from the surface that was found at a few places of each face, if
+                                   ///< the field asks for one
   double seconds = 0;
 
   /// Writes the report as one JSON object.
@@ -123,6 +125,7 @@ inline void Adaptation_report::write_json(std::ostream& out) const
   internal::write_json(out, final);
   if (tolerance > 0)
     out << ",\n  \"tolerance\": " << tolerance << ", \"certified_distance\": " << certified_distance;
+  if (deviation > 0) out << ",\n  \"deviation\": " << deviation;
   const auto sentence = [&](const std::string& s) { internal::write_json(out, s); };
   out << ",\n  \"repairs\": ";
   internal::write_json_list(out, repairs, sentence);

@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -361,6 +362,18 @@ public:
     for_each_index(execution, metrics.size(), [&](std::size_t v) { metrics[v] = scaled(metrics[v], factor); });
   }
 
+  /// Takes another metric in place of that it had, to which no scale applies.
+  template <class Execution>
+  void set_background(const Execution& execution, Background background)
+  {
+    own_background_.emplace(std::move(background));
+    background_ = &*own_background_;
+    for_each_index(execution, metrics.size(), [&](std::size_t v) {
+      if (!mesh.is_removed_vertex(Index(v)))
+        metrics[v] = background_->at(*reference_, locations[v], {points[v], normals[v]});
+    });
+  }
+
   /// Gives back the memory; nothing but the destructor may be called afterwards.
   template <class Execution>
   void release(const Execution& execution)
@@ -428,6 +441,7 @@ private:
 
   const Reference* reference_;
   const Background* background_;
+  std::optional<Background> own_background_; // that has taken its place
   const Tolerance* tolerance_;
   std::optional<Covered_points> covered_; // if there is a tolerance
   double scale_ = 1; ///< of the metric

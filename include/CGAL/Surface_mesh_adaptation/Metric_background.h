@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/metric.h>
+#include <CGAL/Surface_mesh_adaptation/gradation.h>
 #include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 
 #include <cmath>
@@ -42,6 +43,15 @@ inline bool is_valid_size(double size) { return size > 0 && std::isnormal(size *
 
 } // namespace internal
 
+/// What an adapted mesh is to reach beyond unit edges.
+struct Metric_aims
+{
+  double number_of_vertices = 0; ///< 0: any
+  double deviation = 0;          ///< largest distance of its faces from the surface; 0: any
+  double gradation = 1;          ///< of a metric that is tightened for that
+  double hmin = 0;               ///< the same: its smallest size
+};
+
 template <class Metric> class Metric_background;
 
 /// Sizes at the vertices of the reference, interpolated linearly, or a formula.
@@ -59,8 +69,8 @@ public:
 
   /// \throws Invalid_metric_error for a size that is not positive and finite
   template <class Execution>
-  Metric_background(const Execution& execution, std::vector<double> sizes, double number_of_vertices = 0)
-    : sizes_(std::move(sizes)), number_of_vertices_(number_of_vertices)
+  Metric_background(const Execution& execution, std::vector<double> sizes, const Metric_aims& aims = {})
+    : sizes_(std::move(sizes)), aims_(aims)
   {
     const std::size_t bad = internal::first_invalid(execution, sizes_.size(), [&](std::size_t v) {
       return internal::is_valid_size(sizes_[v]);
@@ -70,8 +80,7 @@ public:
 
   explicit Metric_background(Formula formula) : formula_(std::move(formula)) {}
 
-  /// The number of vertices that an adapted mesh is to have; 0: any.
-  double number_of_vertices() const { return number_of_vertices_; }
+  const Metric_aims& aims() const { return aims_; }
 
   template <class Reference>
   Isotropic_metric at(const Reference& reference, const Location& l, const Surface_point& p) const
@@ -87,10 +96,24 @@ public:
                  i.weights[2] * sizes_[i.vertices[2]])};
   }
 
+  /// Sizes that faces need which deviate `excess` times as much as they may, at each vertex of the reference: sagitta grow
+  /// with the square of the length.
+  template <class Execution, class Reference>
+  Metric_background tightened(const Execution& execution, const Reference& reference,
+                              const std::vector<double>& excess) const
+  {
+    std::vector<double> sizes = sizes_;
+    for_each_index(execution, sizes.size(), [&](std::size_t v) {
+      sizes[v] = (std::min)(sizes[v], (std::max)(aims_.hmin, sizes[v] / std::sqrt(excess[v])));
+    });
+    apply_gradation(execution, reference.mesh, reference.points, aims_.gradation, sizes);
+    return Metric_background(execution, std::move(sizes), aims_);
+  }
+
 private:
   double uniform_ = 0;
   std::vector<double> sizes_;
-  double number_of_vertices_ = 0;
+  Metric_aims aims_;
   Formula formula_;
 };
 
@@ -104,9 +127,8 @@ public:
 
   /// \throws Invalid_metric_error for a tensor that is not finite and positive definite
   template <class Execution>
-  Metric_background(const Execution& execution, const std::vector<Metric_tensor_3>& tensors,
-                    double number_of_vertices = 0)
-    : logarithms_(tensors.size()), number_of_vertices_(number_of_vertices)
+  Metric_background(const Execution& execution, const std::vector<Metric_tensor_3>& tensors, const Metric_aims& aims = {})
+    : logarithms_(tensors.size()), aims_(aims)
   {
     const std::size_t bad = internal::first_invalid(execution, tensors.size(), [&](std::size_t v) {
       return is_positive_definite(tensors[v]);
@@ -117,8 +139,7 @@ public:
 
   explicit Metric_background(Formula formula) : formula_(std::move(formula)) {}
 
-  /// The number of vertices that an adapted mesh is to have; 0: any.
-  double number_of_vertices() const { return number_of_vertices_; }
+  const Metric_aims& aims() const { return aims_; }
 
   template <class Reference>
   Anisotropic_metric at(const Reference& reference, const Location& l, const Surface_point& p) const
@@ -141,9 +162,28 @@ public:
     return {exp(sum)};
   }
 
+  /// The same in all directions; what is tightened grows back by the gradation.
+  template <class Execution, class Reference>
+  Metric_background tightened(const Execution& execution, const Reference& reference,
+                              const std::vector<double>& excess) const
+  {
+    std::vector<Metric_tensor_3> tensors(logarithms_.size());
+    std::vector<double> scale(tensors.size()); // of sizes
+    for_each_index(execution, tensors.size(), [&](std::size_t v) {
+      tensors[v] = exp(logarithms_[v]);
+      const double smallest = 1 / std::sqrt(eigen_decomposition(tensors[v]).values[2]);
+      scale[v] = (std::min)(1.0, (std::max)(1 / std::sqrt(excess[v]), aims_.hmin / smallest));
+    });
+    bound_growth(execution, reference.mesh, aims_.gradation, [&](Index v, Index w) {
+      return edge_length(Anisotropic_metric{tensors[v]}, Anisotropic_metric{tensors[w]}, reference.points[w] - reference.points[v]);
+    }, scale);
+    for_each_index(execution, tensors.size(), [&](std::size_t v) { tensors[v] = 1 / (scale[v] * scale[v]) * tensors[v]; });
+    return Metric_background(execution, tensors, aims_);
+  }
+
 private:
   std::vector<Metric_tensor_3> logarithms_;
-  double number_of_vertices_ = 0;
+  Metric_aims aims_;
   Formula formula_;
 };
 

@@ -73,8 +73,7 @@ Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, cons
   Adaptation_report report = adapt_in_place(interruptible, mesh, field, np, [&](const auto& policy, auto& surface) {
     Adaptation_report result =
       Adaptation_driver(policy, surface, visitor)
-        .run(rounds, surface.background().number_of_vertices(),
-             choose(np, internal_np::fit_to_surface, std::false_type()), shape_weight);
+        .run(rounds, choose(np, internal_np::fit_to_surface, std::false_type()), shape_weight);
     warn_of_bulges(policy, field, surface.reference(), result);
     return result;
   });

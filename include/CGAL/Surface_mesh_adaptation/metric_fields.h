@@ -375,6 +375,21 @@ double attainable_number_of_vertices(const Execution& execution, const Field& fi
   return std::abs(std::log(expected / asked)) <= normalization_precision ? asked : expected;
 }
 
+/// What a field asks for beyond its metric, of which the `values` are those at the vertices.
+template <class Execution, class Field, class Reference, class Value>
+Metric_aims aims(const Execution& execution, const Field& field, const Reference& reference, const std::vector<Value>& values)
+{
+  Metric_aims result;
+  result.number_of_vertices = attainable_number_of_vertices(execution, field, reference, values);
+  if constexpr (std::is_same_v<Field, Curvature_metric_field>) {
+    if (field.vertices > 0) return result;
+    result.deviation = field.relative_tolerance * diagonal_of_bounding_box(reference.points);
+    result.gradation = gradation(field);
+    result.hmin = field.hmin > 0 ? field.hmin : result.deviation;
+  }
+  return result;
+}
+
 /// `with_background(execution, field, imported, reference, use)` calls `use(background)` with the metric background
 /// that `field` stands for on the reference surface.
 template <class Execution, class Import, class Reference, class Use>
@@ -401,8 +416,8 @@ void with_background(const Execution& execution, const Field& field, const Impor
   with_vertex_metric(execution, field, imported, reference, [&](auto values) {
     using Value = typename decltype(values)::value_type;
     using Metric = std::conditional_t<std::is_same_v<Value, Metric_tensor_3>, Anisotropic_metric, Isotropic_metric>;
-    const double vertices = attainable_number_of_vertices(execution, field, reference, values);
-    use(Metric_background<Metric>(execution, std::move(values), vertices));
+    const Metric_aims asked = aims(execution, field, reference, values);
+    use(Metric_background<Metric>(execution, std::move(values), asked));
   });
 }
 
