@@ -6,8 +6,8 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_ADAPTATION_DRIVER_H
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
-#include <CGAL/Surface_mesh_adaptation/Excess_deviation.h>
 #include <CGAL/Surface_mesh_adaptation/Sampled_points.h>
+#include <CGAL/Surface_mesh_adaptation/Face_deviations.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Fitting.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Refinement.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Regularization.h>
@@ -44,26 +44,30 @@ public:
     , relocation_(execution, surface, {})
   {}
 
-  /// At most `rounds` rounds; then, if a number of vertices or a deviation is asked for and missed, a few more in a scaled
-  /// or tightened metric, several times. In the end the vertices are fitted to the surface if `is_fitted`; `std::false_type` spares users the
-  /// time to compile that. The smaller the `shape_weight`, the nearer they come.
+  /// At most `rounds` rounds; then, if a number of vertices or a deviation is asked for and missed, a few more in a
+  /// scaled or tightened metric, several times. In the end the vertices are fitted to the surface if `is_fitted`;
+  /// `std::false_type` spares users the time to compile that. The smaller the `shape_weight`, the nearer they come.
   template <class IsFitted = std::false_type>
   Adaptation_report run(std::size_t rounds, IsFitted is_fitted = {}, double shape_weight = default_shape_weight)
   {
-    const double number_of_vertices = surface_.background().aims().number_of_vertices;
+    const Metric_aims& aims = surface_.background().aims();
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
     is_adapted_ = report_.initial.in_range > adapted_share;
     relocation_.expect_adapted(is_adapted_);
     find_work();
     do_rounds(rounds, report_.initial);
-    if (number_of_vertices > 0) meet_number(number_of_vertices);
+    if (aims.number_of_vertices > 0) meet_number(aims.number_of_vertices);
     refinement_.compact();
-    if (rounds > 0 && surface_.background().aims().deviation > 0) meet_deviation(surface_.background().aims().deviation);
+    if (aims.deviation > 0 && rounds > 0) meet_deviation(aims.deviation);
     if constexpr (!std::is_same_v<IsFitted, std::false_type>)
-      if (is_fitted) fit(shape_weight);
-    report_.final = number_of_vertices > 0 || is_fitted ? mesh_statistics(execution_, surface_) : current();
-    warn();
+      if (is_fitted) {
+        fit(shape_weight);
+        Face_deviations<Surface> deviations(surface_, aims.deviation);
+        if (aims.deviation > 0) measure(deviations);
+      }
+    report_.final = aims.number_of_vertices > 0 || is_fitted ? mesh_statistics(execution_, surface_) : current();
+    warn(aims.deviation);
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report_;
   }
@@ -79,6 +83,7 @@ private:
     return thresholds;
   }
 
+  using Metric = typename Surface::Metric;
   static constexpr bool is_anisotropic = Surface_mesh_adaptation::is_anisotropic<typename Surface::Metric>;
 
   static Swapping_thresholds swapping_thresholds()
@@ -135,19 +140,58 @@ private:
     surface_.scale_metric(execution_, std::exp(-scale));
   }
 
-  /// Tightens the metric where faces leave the surface by more than `allowed`, and adapts the mesh to that.
-  void meet_deviation(double allowed)
+  /// Tightens the metric around the faces that leave the surface by more than is asked for, and adapts the mesh to that
+  /// there. Faces that leave it most go first: the number of vertices is not to grow without end where sizes are not what
+  /// is missing, as at edges of the input that faces cross.
+  void meet_deviation(double asked)
   {
-    for (int i = 0; !report_.stopped; ++i) {
-      const Excess_deviation deviation(execution_, surface_, safety_of_deviation * allowed);
-      report_.deviation = deviation.largest();
-      if (!(deviation.largest() > allowed) || i == max_corrections_of_deviation) break;
-      surface_.set_background(execution_, surface_.background().tightened(execution_, surface_.reference(),
-                                                                          deviation.excess()));
-      find_work();
-      do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
+    const double allowed = safety_of_deviation * asked;
+    const double most_vertices = largest_growth * double(surface_.mesh.number_of_vertices());
+    Face_deviations<Surface> deviations(surface_, allowed);
+    for (int i = 0; measure(deviations) > asked && i < max_corrections_of_deviation; ++i) {
+      const double left = most_vertices - double(surface_.mesh.number_of_vertices());
+      if (left <= 0) break;
+      const double bound = (std::max)(allowed, deviations.nth_largest(std::size_t(left / vertices_of_correction)));
+      work_where(surface_.tighten_metric(execution_, size_factors(deviations, bound)));
+      do_rounds(1, current());
       refinement_.compact();
     }
+    extent_ = 0;
+  }
+
+  /// The largest distance of the mesh from the surface; 0 in a run that was stopped.
+  double measure(Face_deviations<Surface>& deviations)
+  {
+    if (report_.stopped) return 0;
+    deviations.update(execution_);
+    report_.stopped = is_stopped(execution_);
+    if (!report_.stopped) report_.deviation = deviations.largest(execution_);
+    return report_.stopped ? 0 : report_.deviation;
+  }
+
+  /// What the sizes at the vertices have to be multiplied with around faces whose deviations exceed `bound`: these go with
+  /// the squares of sizes. Less than a certain step would change no edge.
+  std::vector<double> size_factors(const Face_deviations<Surface>& deviations, double bound) const
+  {
+    std::vector<double> factors(surface_.mesh.number_of_vertices());
+    for_each_index(execution_, factors.size(), [&](std::size_t v) {
+      double largest = 0;
+      for (const Index f : surface_.faces_around(Index(v))) largest = (std::max)(largest, deviations[f]);
+      factors[v] = largest > bound ? std::clamp(std::sqrt(bound / largest), strongest_step, weakest_step) : 1;
+    });
+    return factors;
+  }
+
+  /// Lets the kernels look at the vertices that are marked and those next to them, and at no others.
+  void work_where(const std::vector<std::uint8_t>& is_marked)
+  {
+    extent_ = count_if(execution_, is_marked.size(), [&](std::size_t v) { return is_marked[v] != 0; });
+    fill(execution_, surface_.active, is_marked.size(), std::uint8_t(0));
+    for_each_index(execution_, is_marked.size(), [&](std::size_t v) {
+      if (is_marked[v] == 0) return;
+      activate(surface_, Index(v));
+      surface_.mesh.for_each_neighbor(Index(v), [&](Index w) { activate(surface_, w); });
+    });
   }
 
   /// The logarithm of the scale at which as many edges leave the range as vertices are `missing`, or too many: a mesh
@@ -217,29 +261,19 @@ private:
   }
 
   /// Says what was not reached.
-  void warn()
+  void warn(double deviation)
   {
     if (report_.stopped) return;
     const auto percent = [](double share) { return internal::number(std::round(1000 * share) / 10) + " %"; };
     if (refinement_.is_at_limit())
       report_.warnings.push_back("refinement was stopped at " + std::to_string(report_.final.vertices) +
                                  " vertices, far above what the metric asks for or at what is possible");
-    if (const double allowed = surface_.background().aims().deviation; allowed > 0) warn_of_deviation(allowed);
+    if (report_.deviation > expected_excess * deviation)
+      report_.warnings.push_back("faces are up to " + internal::number(report_.deviation) + " away from the surface, " +
+                                 internal::number(std::round(10 * report_.deviation / deviation) / 10) +
+                                 " times the tolerance of the sizes: ask for a `tolerance`, or give a finer input");
     if (report_.final.in_range < expected_share)
       report_.warnings.push_back("only " + percent(report_.final.in_range) + " of the edges have the length asked for");
-  }
-
-  void warn_of_deviation(double allowed)
-  {
-    const auto times = [&](double x) { return internal::number(std::round(10 * x / allowed) / 10) + " times"; };
-    if (report_.deviation > expected_excess * allowed)
-      report_.warnings.push_back("faces are up to " + times(report_.deviation) +
-                                 " the tolerance of the sizes away from the surface");
-    // patches bulge by less than a quarter of the length of their edges
-    const double bulge = largest_bulge(execution_, surface_.reference(), 4 * largest_bulge_unsaid * allowed);
-    if (bulge > largest_bulge_unsaid * allowed)
-      report_.warnings.push_back("the smooth surface leaves the faces of the input by up to " + times(bulge) +
-                                 " the tolerance of the sizes: the input is coarse for that");
   }
 
   void fit(double shape_weight)
@@ -276,7 +310,10 @@ private:
            current().mean_quality - before.mean_quality > least_gain;
   }
 
-  std::size_t negligible(double share) const { return std::size_t(share * double(surface_.mesh.number_of_vertices())); }
+  std::size_t negligible(double share) const
+  {
+    return std::size_t(share * double(extent_ > 0 ? extent_ : surface_.mesh.number_of_vertices()));
+  }
 
   /// Repeats `sweep` until there is little left to do.
   template <class Sweep>
@@ -323,13 +360,15 @@ private:
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
   static constexpr int max_corrections_of_deviation = 4;
-  static constexpr double safety_of_deviation = 0.85;    // once it was missed
+  static constexpr double safety_of_deviation = 0.9;     // once one is missed
+  static constexpr double largest_growth = 1.3;          // of the number of vertices, for a deviation
+  static constexpr double vertices_of_correction = 2;    // that a face costs which is too far away
+  static constexpr double strongest_step = 0.5, weakest_step = 0.8; // of sizes, in one correction
   static constexpr int least_steps_of_fit = 4, max_steps_of_fit = 16;
   static constexpr double min_fitted_quality = 0.5;
   static constexpr double adapted_share = 0.95;          // of the edges in range
   static constexpr double expected_share = 0.8;          // of the edges in range in the end: less is not usual
-  static constexpr double expected_excess = 1.3;         // of distances over the tolerance of sizes from the curvature
-  static constexpr double largest_bulge_unsaid = 4;      // of patches, the same
+  static constexpr double expected_excess = 1.3;         // of a deviation over what was asked for, the same
   static constexpr double least_gain = 0.0015;           // in the share of edges in range or in mean quality
 
   const Execution& execution_;
@@ -342,6 +381,7 @@ private:
   Relocation<Surface, Execution> relocation_;
   Adaptation_report report_;
   std::size_t round_ = 0;
+  std::size_t extent_ = 0;   // number of vertices of the part that is worked on; 0: all
   bool is_adapted_ = false;  // from the beginning
   bool is_irregular_ = true; // so much that it is worth to go on with regularization
 };

@@ -58,8 +58,8 @@ struct Adaptation_report
   double tolerance = 0;            ///< largest distance allowed between input and output; 0: none was asked for
   double certified_distance = 0;   ///< if one was: an upper bound of their Hausdorff distance, by 2 % of it too large
                                    ///< at most
-  double deviation = 0;            ///< largest distance from the surface that was found at a few places of each face, if
-                                   ///< the field asks for one
+  double deviation = 0;            ///< with a `Curvature_metric_field`: largest distance from the surface, at some places
+                                   ///< of each face, and of a vertex of the input from the faces
   double seconds = 0;
 
   /// Writes the report as one JSON object.

@@ -10,7 +10,6 @@
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution.h>
 #include <CGAL/Surface_mesh_adaptation/metric.h>
-#include <CGAL/Surface_mesh_adaptation/gradation.h>
 #include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
 
 #include <cmath>
@@ -48,8 +47,8 @@ struct Metric_aims
 {
   double number_of_vertices = 0; ///< 0: any
   double deviation = 0;          ///< largest distance of its faces from the surface; 0: any
-  double gradation = 1;          ///< of a metric that is tightened for that
-  double hmin = 0;               ///< the same: its smallest size
+  double hmin = 0;               ///< smallest size of a metric that is tightened for that
+  double gradation = 1;          ///< and its gradation
 };
 
 template <class Metric> class Metric_background;
@@ -80,6 +79,7 @@ public:
 
   explicit Metric_background(Formula formula) : formula_(std::move(formula)) {}
 
+  /// The number of vertices that an adapted mesh is to have; 0: any.
   const Metric_aims& aims() const { return aims_; }
 
   template <class Reference>
@@ -94,20 +94,6 @@ public:
     const auto i = reference.interpolation(l);
     return {1 / (i.weights[0] * sizes_[i.vertices[0]] + i.weights[1] * sizes_[i.vertices[1]] +
                  i.weights[2] * sizes_[i.vertices[2]])};
-  }
-
-  /// Sizes that faces need which deviate `excess` times as much as they may, at each vertex of the reference: sagitta grow
-  /// with the square of the length.
-  template <class Execution, class Reference>
-  Metric_background tightened(const Execution& execution, const Reference& reference,
-                              const std::vector<double>& excess) const
-  {
-    std::vector<double> sizes = sizes_;
-    for_each_index(execution, sizes.size(), [&](std::size_t v) {
-      sizes[v] = (std::min)(sizes[v], (std::max)(aims_.hmin, sizes[v] / std::sqrt(excess[v])));
-    });
-    apply_gradation(execution, reference.mesh, reference.points, aims_.gradation, sizes);
-    return Metric_background(execution, std::move(sizes), aims_);
   }
 
 private:
@@ -127,7 +113,8 @@ public:
 
   /// \throws Invalid_metric_error for a tensor that is not finite and positive definite
   template <class Execution>
-  Metric_background(const Execution& execution, const std::vector<Metric_tensor_3>& tensors, const Metric_aims& aims = {})
+  Metric_background(const Execution& execution, const std::vector<Metric_tensor_3>& tensors,
+                    const Metric_aims& aims = {})
     : logarithms_(tensors.size()), aims_(aims)
   {
     const std::size_t bad = internal::first_invalid(execution, tensors.size(), [&](std::size_t v) {
@@ -139,6 +126,7 @@ public:
 
   explicit Metric_background(Formula formula) : formula_(std::move(formula)) {}
 
+  /// The number of vertices that an adapted mesh is to have; 0: any.
   const Metric_aims& aims() const { return aims_; }
 
   template <class Reference>
@@ -160,25 +148,6 @@ public:
       } else sum += i.weights[k] * m;
     }
     return {exp(sum)};
-  }
-
-  /// The same in all directions; what is tightened grows back by the gradation.
-  template <class Execution, class Reference>
-  Metric_background tightened(const Execution& execution, const Reference& reference,
-                              const std::vector<double>& excess) const
-  {
-    std::vector<Metric_tensor_3> tensors(logarithms_.size());
-    std::vector<double> scale(tensors.size()); // of sizes
-    for_each_index(execution, tensors.size(), [&](std::size_t v) {
-      tensors[v] = exp(logarithms_[v]);
-      const double smallest = 1 / std::sqrt(eigen_decomposition(tensors[v]).values[2]);
-      scale[v] = (std::min)(1.0, (std::max)(1 / std::sqrt(excess[v]), aims_.hmin / smallest));
-    });
-    bound_growth(execution, reference.mesh, aims_.gradation, [&](Index v, Index w) {
-      return edge_length(Anisotropic_metric{tensors[v]}, Anisotropic_metric{tensors[w]}, reference.points[w] - reference.points[v]);
-    }, scale);
-    for_each_index(execution, tensors.size(), [&](std::size_t v) { tensors[v] = 1 / (scale[v] * scale[v]) * tensors[v]; });
-    return Metric_background(execution, tensors, aims_);
   }
 
 private:

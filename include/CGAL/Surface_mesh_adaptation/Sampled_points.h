@@ -68,18 +68,6 @@ public:
       g(internal::closest_point_of_triangle(points_[places * f + i], p[0], p[1], p[2]), weights_[f]);
   }
 
-  /// Calls `g(location)` for the points of face `f`.
-  template <class G>
-  void for_each_location(Index f, const G& g) const
-  {
-    for (std::size_t i = 0; i < places; ++i) g(locations_[places * f + i]);
-  }
-
-  const Location& location_at_centroid(Index f) const { return locations_[places * f + places - 1]; }
-
-  /// The largest distance of a point of face `f` from it.
-  double largest_distance_of(Index f) const { return std::sqrt(squared_distance(f)); }
-
   /// Whether the points of face `f` are no further away than `max_distance`, and what it covers stays in the tolerance.
   bool are_within_limits(Index f, double max_distance) const
   {

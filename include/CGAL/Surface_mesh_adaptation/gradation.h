@@ -27,47 +27,27 @@ namespace Surface_mesh_adaptation {
 /// Ratio of the sizes at two points one size apart, unless said otherwise (the value of the paper).
 constexpr double default_gradation = 1.5;
 
-/// Lowers `values` (one per vertex) until `values[v] <= bound(v, w, values[w])` for all neighbours `w` of `v`. The result is
-/// the largest such field below the given one, if the bound grows with the value, hence unique.
-template <class Execution, class Bound>
-void lower_to_bounds(const Execution& execution, const Mesh_view& mesh, const Bound& bound, std::vector<double>& values)
-{
-  std::vector<double> lowered(values.size());
-  for (bool changed = true; changed;) {
-    for_each_index(execution, values.size(), [&](std::size_t v) {
-      double least = values[v];
-      mesh.for_each_neighbor(Index(v), [&](Index w) { least = (std::min)(least, bound(Index(v), w, values[w])); });
-      lowered[v] = least;
-    });
-    changed = count_if(execution, values.size(), [&](std::size_t v) { return lowered[v] < values[v]; }) > 0;
-    values.swap(lowered);
-  }
-}
-
 /// Lowers `sizes` (one per vertex) until the h-shock of every edge is at most `ratio`, that is
-/// `|h_q - h_p| <= |pq| ln ratio` (Borouchaki, Hecht, Frey 1998). `ratio <= 1` switches the gradation off.
+/// `|h_q - h_p| <= |pq| ln ratio` (Borouchaki, Hecht, Frey 1998). The result is the largest such field below the given
+/// one, hence unique. `ratio <= 1` switches the gradation off.
 template <class Execution>
 void apply_gradation(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
                      double ratio, std::vector<double>& sizes)
 {
   if (!(ratio > 1)) return;
   const double slope = std::log(ratio);
-  lower_to_bounds(execution, mesh, [&](Index v, Index w, double size) {
-    return size + slope * (points[w] - points[v]).norm();
-  }, sizes);
-}
-
-/// Lowers `scales` of a metric (one per vertex) until they grow by no more than `ratio` over one size: over an edge with the
-/// length `l = length(v, w)` in that metric by a factor of `1 + l ln ratio`. `ratio <= 1` switches it off.
-template <class Execution, class Length>
-void bound_growth(const Execution& execution, const Mesh_view& mesh, double ratio, const Length& length,
-                  std::vector<double>& scales)
-{
-  if (!(ratio > 1)) return;
-  const double slope = std::log(ratio);
-  lower_to_bounds(execution, mesh, [&](Index v, Index w, double scale) {
-    return scale * (1 + slope * length(v, w));
-  }, scales);
+  std::vector<double> lowered(sizes.size());
+  for (bool changed = true; changed;) {
+    for_each_index(execution, sizes.size(), [&](std::size_t v) {
+      double h = sizes[v];
+      mesh.for_each_neighbor(Index(v), [&](Index w) {
+        h = (std::min)(h, sizes[w] + slope * (points[w] - points[v]).norm());
+      });
+      lowered[v] = h;
+    });
+    changed = count_if(execution, sizes.size(), [&](std::size_t v) { return lowered[v] < sizes[v]; }) > 0;
+    sizes.swap(lowered);
+  }
 }
 
 namespace internal {

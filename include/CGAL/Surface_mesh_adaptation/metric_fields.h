@@ -377,15 +377,16 @@ double attainable_number_of_vertices(const Execution& execution, const Field& fi
 
 /// What a field asks for beyond its metric, of which the `values` are those at the vertices.
 template <class Execution, class Field, class Reference, class Value>
-Metric_aims aims(const Execution& execution, const Field& field, const Reference& reference, const std::vector<Value>& values)
+Metric_aims aims(const Execution& execution, const Field& field, const Reference& reference,
+                 const std::vector<Value>& values)
 {
   Metric_aims result;
   result.number_of_vertices = attainable_number_of_vertices(execution, field, reference, values);
   if constexpr (std::is_same_v<Field, Curvature_metric_field>) {
     if (field.vertices > 0) return result;
     result.deviation = field.relative_tolerance * diagonal_of_bounding_box(reference.points);
-    result.gradation = gradation(field);
     result.hmin = field.hmin > 0 ? field.hmin : result.deviation;
+    result.gradation = gradation(field);
   }
   return result;
 }
