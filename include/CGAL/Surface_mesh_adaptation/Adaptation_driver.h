@@ -141,8 +141,8 @@ private:
   }
 
   /// Tightens the metric around the faces that leave the surface by more than is asked for, and adapts the mesh to that
-  /// there. Faces that leave it most go first: the number of vertices is not to grow without end where sizes are not what
-  /// is missing, as at edges of the input that faces cross.
+  /// there. Those that leave it most go first: the number of vertices is not to grow without end where sizes are not
+  /// what is missing, as at edges of the input that faces cross.
   void meet_deviation(double asked)
   {
     const double allowed = safety_of_deviation * asked;
@@ -153,6 +153,7 @@ private:
       if (left <= 0) break;
       const double bound = (std::max)(allowed, deviations.nth_largest(std::size_t(left / vertices_of_correction)));
       work_where(surface_.tighten_metric(execution_, size_factors(deviations, bound)));
+      if (extent_ == 0) break;
       do_rounds(1, current());
       refinement_.compact();
     }
@@ -169,8 +170,8 @@ private:
     return report_.stopped ? 0 : report_.deviation;
   }
 
-  /// What the sizes at the vertices have to be multiplied with around faces whose deviations exceed `bound`: these go with
-  /// the squares of sizes. Less than a certain step would change no edge.
+  /// What the sizes at the vertices are multiplied with around faces whose deviations exceed `bound`: deviations go with
+  /// the squares of sizes. Steps that are too small would change no edge.
   std::vector<double> size_factors(const Face_deviations<Surface>& deviations, double bound) const
   {
     std::vector<double> factors(surface_.mesh.number_of_vertices());
@@ -362,7 +363,7 @@ private:
   static constexpr int max_corrections_of_deviation = 4;
   static constexpr double safety_of_deviation = 0.9;     // once one is missed
   static constexpr double largest_growth = 1.3;          // of the number of vertices, for a deviation
-  static constexpr double vertices_of_correction = 2;    // that a face costs which is too far away
+  static constexpr double vertices_of_correction = is_anisotropic ? 4 : 2; // that a face costs which is too far away
   static constexpr double strongest_step = 0.5, weakest_step = 0.8; // of sizes, in one correction
   static constexpr int least_steps_of_fit = 4, max_steps_of_fit = 16;
   static constexpr double min_fitted_quality = 0.5;

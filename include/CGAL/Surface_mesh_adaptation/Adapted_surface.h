@@ -362,20 +362,21 @@ public:
     for_each_index(execution, metrics.size(), [&](std::size_t v) { metrics[v] = scaled(metrics[v], factor); });
   }
 
-  /// Multiplies the sizes at the vertices by those `factors` that are below 1, around them by larger ones as the gradation
-  /// wants it. Returns a 1 for each vertex of which that changes the metric. \pre no vertex is removed
+  /// Multiplies the sizes at the vertices by those `factors` that are below 1, and around them as the gradation wants
+  /// it. Returns a 1 for each vertex of which that changes the metric. \pre no vertex is removed
   template <class Execution>
   std::vector<std::uint8_t> tighten_metric(const Execution& execution, const std::vector<double>& factors)
   {
-    const auto point_at = [&](Index v) { return Surface_point{points[v], normals[v]}; };
+    const auto surface_point = [&](Index v) { return Surface_point{points[v], normals[v]}; };
     std::vector<Graded_bounds::Source> sources = bounds_.sources();
-    for (const Index v : pack(execution, factors.size(), [&](std::size_t i) { return factors[i] < 1; }))
-      sources.push_back(tightening(background_->at(*reference_, locations[v], point_at(v)), bounds_, points[v], factors[v],
-                                   background_->aims()));
+    for (const Index v : pack(execution, factors.size(), [&](std::size_t i) { return factors[i] < 1; })) {
+      const Metric untightened = background_->at(*reference_, locations[v], surface_point(v));
+      sources.push_back(tightening(untightened, bounds_, points[v], factors[v], background_->aims()));
+    }
     bounds_ = Graded_bounds(execution, std::move(sources));
     std::vector<std::uint8_t> is_changed(metrics.size());
     for_each_index(execution, metrics.size(), [&](std::size_t v) {
-      const Metric now = metric(locations[v], point_at(Index(v)));
+      const Metric now = metric(locations[v], surface_point(Index(v)));
       is_changed[v] = now == metrics[v] ? 0 : 1;
       metrics[v] = now;
     });

@@ -23,8 +23,8 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// For each face of an adapted mesh its largest distance from the surface, at its centroid and the middles of its edges,
-/// and that of the vertices of the input next to it.
+/// For each face of an adapted mesh its largest distance from the surface, at its centroid and the middles of its
+/// edges, and that of the vertices of the input next to it.
 template <class Surface>
 class Face_deviations
 {

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -57,16 +58,7 @@ public:
   /// The bound at `p`, if it is below `limit`, or that. Near O(log n) where few sources matter.
   double least(const Vector_3& p, double limit) const
   {
-    if (sources_.empty()) return limit;
-    boost::container::static_vector<Place, 64> stack{{levels_.size() - 1, 0}};
-    while (!stack.empty()) {
-      const Place at = stack.back();
-      stack.pop_back();
-      if (levels_[at.level][at.index].least(p) >= limit) continue;
-      if (at.level == 0) limit = least_of_leaf(at.index, p, limit);
-      else push_children(at, p, stack);
-    }
-    return limit;
+    return least(p, limit, std::numeric_limits<double>::infinity());
   }
 
 private:
@@ -74,6 +66,21 @@ private:
   {
     std::size_t level, index;
   };
+
+  /// The same by sources with no more than this slope.
+  double least(const Vector_3& p, double limit, double max_slope) const
+  {
+    if (sources_.empty()) return limit;
+    boost::container::static_vector<Place, 64> stack{{levels_.size() - 1, 0}};
+    while (!stack.empty()) {
+      const Place at = stack.back();
+      stack.pop_back();
+      if (levels_[at.level][at.index].least(p) >= limit) continue;
+      if (at.level == 0) limit = least_of_leaf(at.index, p, limit, max_slope);
+      else push_children(at, p, stack);
+    }
+    return limit;
+  }
 
   /// Some sources: the box around them, their least value and least slope.
   struct Group
@@ -119,13 +126,13 @@ private:
     while (levels_.back().size() > 1) add_level(execution, levels_.back(), 2);
   }
 
-  /// Drops sources that others bound by less.
+  /// Drops sources that lie above the bound of others, with all that they bound.
   template <class Execution>
   void drop_idle(const Execution& execution)
   {
     std::vector<Source> kept;
     for (const Index i : pack(execution, sources_.size(), [&](std::size_t j) {
-           return least(sources_[j].point, sources_[j].value) >= sources_[j].value;
+           return !(least(sources_[j].point, sources_[j].value, sources_[j].slope) < sources_[j].value);
          }))
       kept.push_back(sources_[i]);
     sources_.swap(kept);
@@ -143,10 +150,10 @@ private:
     levels_.push_back(std::move(level));
   }
 
-  double least_of_leaf(std::size_t leaf, const Vector_3& p, double limit) const
+  double least_of_leaf(std::size_t leaf, const Vector_3& p, double limit, double max_slope) const
   {
     for (std::size_t i = leaf_size * leaf; i < (std::min)(leaf_size * (leaf + 1), sources_.size()); ++i)
-      limit = (std::min)(limit, sources_[i].at((sources_[i].point - p).norm()));
+      if (sources_[i].slope <= max_slope) limit = (std::min)(limit, sources_[i].at((sources_[i].point - p).norm()));
     return limit;
   }
 

@@ -43,7 +43,7 @@ inline Graded_bounds::Source tightening(const Isotropic_metric& m, const Graded_
           std::log(aims.gradation)};
 }
 
-/// The same for tensors. Factors grow with the lengths along the largest size, so more slowly than they may along others.
+/// The same for tensors. Factors grow as they may along the largest size, more slowly than they may along others.
 inline Graded_bounds::Source tightening(const Anisotropic_metric& m, const Graded_bounds& bounds, const Vector_3& p,
                                         double factor, const Metric_aims& aims)
 {
