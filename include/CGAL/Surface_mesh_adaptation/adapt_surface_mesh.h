@@ -109,7 +109,7 @@ step at the end: if anything throws, it is as it was.
     \cgalParamDescription{the largest number of rounds}
     \cgalParamType{`unsigned int`}
     \cgalParamDefault{`8`; fewer are done if nothing is left to gain, more if the field asks for a number of vertices
-                      that is missed}
+                      or a distance from the surface that is missed}
   \cgalParamNEnd
   \cgalParamNBegin{feature_angle}
     \cgalParamDescription{an edge is a ridge if the normals of its faces differ by more than this}
