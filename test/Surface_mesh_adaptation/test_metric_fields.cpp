@@ -894,8 +894,8 @@ TEST(Curvature_metric_field, is_met_on_narrow_strips_between_features)
     SMA::Curvature_metric_field field(1e-3);
     field.anisotropic = true;
     const auto report = SMA::adapt_surface_mesh<CGAL::Sequential_tag>(mesh, field);
-    EXPECT_GT(report.final.in_range, 0.95) << width;
-    EXPECT_GT(report.final.mean_quality, 0.93) << width;
+    EXPECT_GT(report.final.in_range, 0.94) << width; // less than that of the strips alone: for the tolerance they are
+    EXPECT_GT(report.final.mean_quality, 0.92) << width; // tightened in all directions
     EXPECT_GT(report.final.min_quality, 0.5) << width;
   }
 }

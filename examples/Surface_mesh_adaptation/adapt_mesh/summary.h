@@ -38,6 +38,9 @@ inline void print_summary(const SMA::Adaptation_report& report, const Mesh& inpu
   std::printf("quality   %.3f -> %.3f mean, %.3f -> %.3f worst; smallest angle %.1f degrees\n", before.mean_quality,
               after.mean_quality, before.min_quality, after.min_quality, after.min_angle);
   std::printf("distance  %.3g, %.3g of the diagonal (sampled)\n", distance, distance / diagonal(input));
+  if (report.deviation > 0)
+    std::printf("deviation %.3g, %.3g of the diagonal: of the faces from the surface, at a few places\n", report.deviation,
+                report.deviation / diagonal(input));
   if (report.tolerance > 0)
     std::printf("certified %.3g, %.3g of the tolerance\n", report.certified_distance,
                 report.certified_distance / report.tolerance);

@@ -6,6 +6,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_ADAPTATION_DRIVER_H
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
+#include <CGAL/Surface_mesh_adaptation/Face_deviations.h>
 #include <CGAL/Surface_mesh_adaptation/Sampled_points.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Fitting.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Refinement.h>
@@ -21,6 +22,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -43,25 +46,31 @@ public:
     , relocation_(execution, surface, {})
   {}
 
-  /// At most `rounds` rounds; then, if a number of vertices is asked for and missed, a few more in a scaled metric,
-  /// several times. In the end the vertices are fitted to the surface if `is_fitted`; `std::false_type` spares users the
-  /// time to compile that. The smaller the `shape_weight`, the nearer they come.
+  /// At most `rounds` rounds; then, if a number of vertices or a deviation is asked for and missed, a few more in a
+  /// scaled or tightened metric, several times. In the end the vertices are fitted to the surface if `is_fitted`;
+  /// `std::false_type` spares users the time to compile that. The smaller the `shape_weight`, the nearer they come.
   template <class IsFitted = std::false_type>
-  Adaptation_report run(std::size_t rounds, double number_of_vertices = 0, IsFitted is_fitted = {},
-                        double shape_weight = default_shape_weight)
+  Adaptation_report run(std::size_t rounds, IsFitted is_fitted = {}, double shape_weight = default_shape_weight)
   {
+    const Metric_aims& aims = surface_.background().aims();
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
     is_adapted_ = report_.initial.in_range > adapted_share;
     relocation_.expect_adapted(is_adapted_);
     find_work();
     do_rounds(rounds, report_.initial);
-    if (number_of_vertices > 0) meet_number(number_of_vertices);
+    if (aims.number_of_vertices > 0) meet_number(aims.number_of_vertices);
     refinement_.compact();
+    if (aims.deviation > 0 && rounds > 0) meet_deviation(aims.deviation);
     if constexpr (!std::is_same_v<IsFitted, std::false_type>)
-      if (is_fitted) fit(shape_weight);
-    report_.final = number_of_vertices > 0 || is_fitted ? mesh_statistics(execution_, surface_) : current();
-    warn();
+      if (is_fitted) {
+        fit(shape_weight);
+        Face_deviations<Surface> deviations(surface_, aims.deviation);
+        if (aims.deviation > 0) measure(deviations);
+      }
+    const bool is_current = aims.number_of_vertices == 0 && !is_fitted && !is_restored_;
+    report_.final = is_current ? current() : mesh_statistics(execution_, surface_);
+    warn(aims.deviation);
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report_;
   }
@@ -77,6 +86,7 @@ private:
     return thresholds;
   }
 
+  using Metric = typename Surface::Metric;
   static constexpr bool is_anisotropic = Surface_mesh_adaptation::is_anisotropic<typename Surface::Metric>;
 
   static Swapping_thresholds swapping_thresholds()
@@ -131,6 +141,80 @@ private:
       do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
     }
     surface_.scale_metric(execution_, std::exp(-scale));
+  }
+
+  /// Tightens the metric around the faces that leave the surface by more than is asked for, and adapts the mesh to that
+  /// there. Those that leave it most go first: the number of vertices is not to grow without end where sizes are not
+  /// what is missing, as at edges of the input that faces cross. Keeps the mesh that comes nearest to what is asked for.
+  void meet_deviation(double asked)
+  {
+    const double most_vertices = largest_growth * double(surface_.mesh.number_of_vertices());
+    Face_deviations<Surface> deviations(surface_, safety_of_deviation * asked);
+    std::optional<Surface> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; measure(deviations) > asked && i < max_corrections_of_deviation; ++i) {
+      if (report_.deviation < least) best = surface_;
+      least = (std::min)(least, report_.deviation);
+      if (!correct(deviations, most_vertices)) break;
+    }
+    extent_ = 0;
+    if (report_.deviation > least) restore(*best, least);
+  }
+
+  /// One correction of the faces that leave the surface. Returns whether there was anything left to do.
+  bool correct(const Face_deviations<Surface>& deviations, double most_vertices)
+  {
+    const double left = most_vertices - double(surface_.mesh.number_of_vertices());
+    if (left <= 0) return false;
+    const double bound =
+      (std::max)(deviations.allowed(), deviations.nth_largest(std::size_t(left / vertices_of_correction)));
+    work_where(surface_.tighten_metric(execution_, size_factors(deviations, bound)));
+    if (extent_ == 0) return false;
+    do_rounds(1, current());
+    refinement_.compact();
+    return true;
+  }
+
+  void restore(const Surface& surface, double deviation)
+  {
+    surface_ = surface;
+    report_.deviation = deviation;
+    is_restored_ = true;
+  }
+
+  /// The largest distance of the mesh from the surface; 0 in a run that was stopped.
+  double measure(Face_deviations<Surface>& deviations)
+  {
+    if (report_.stopped) return 0;
+    deviations.update(execution_);
+    report_.stopped = is_stopped(execution_);
+    if (!report_.stopped) report_.deviation = deviations.largest(execution_);
+    return report_.stopped ? 0 : report_.deviation;
+  }
+
+  /// What the sizes at the vertices are multiplied with around faces whose deviations exceed `bound`: deviations go with
+  /// the squares of sizes. Steps that are too small would change no edge.
+  std::vector<double> size_factors(const Face_deviations<Surface>& deviations, double bound) const
+  {
+    std::vector<double> factors(surface_.mesh.number_of_vertices());
+    for_each_index(execution_, factors.size(), [&](std::size_t v) {
+      double largest = 0;
+      for (const Index f : surface_.faces_around(Index(v))) largest = (std::max)(largest, deviations[f]);
+      factors[v] = largest > bound ? std::clamp(std::sqrt(bound / largest), strongest_step, weakest_step) : 1;
+    });
+    return factors;
+  }
+
+  /// Lets the kernels look at the vertices that are marked and those next to them, and at no others.
+  void work_where(const std::vector<std::uint8_t>& is_marked)
+  {
+    extent_ = count_if(execution_, is_marked.size(), [&](std::size_t v) { return is_marked[v] != 0; });
+    fill(execution_, surface_.active, is_marked.size(), std::uint8_t(0));
+    for_each_index(execution_, is_marked.size(), [&](std::size_t v) {
+      if (is_marked[v] == 0) return;
+      activate(surface_, Index(v));
+      surface_.mesh.for_each_neighbor(Index(v), [&](Index w) { activate(surface_, w); });
+    });
   }
 
   /// The logarithm of the scale at which as many edges leave the range as vertices are `missing`, or too many: a mesh
@@ -200,13 +284,17 @@ private:
   }
 
   /// Says what was not reached.
-  void warn()
+  void warn(double deviation)
   {
     if (report_.stopped) return;
     const auto percent = [](double share) { return internal::number(std::round(1000 * share) / 10) + " %"; };
     if (refinement_.is_at_limit())
       report_.warnings.push_back("refinement was stopped at " + std::to_string(report_.final.vertices) +
                                  " vertices, far above what the metric asks for or at what is possible");
+    if (report_.deviation > expected_excess * deviation)
+      report_.warnings.push_back("faces are up to " + internal::number(report_.deviation) + " away from the surface, " +
+                                 internal::number(std::round(10 * report_.deviation / deviation) / 10) +
+                                 " times the tolerance of the sizes: ask for a `tolerance`, or give a finer input");
     if (report_.final.in_range < expected_share)
       report_.warnings.push_back("only " + percent(report_.final.in_range) + " of the edges have the length asked for");
   }
@@ -245,7 +333,10 @@ private:
            current().mean_quality - before.mean_quality > least_gain;
   }
 
-  std::size_t negligible(double share) const { return std::size_t(share * double(surface_.mesh.number_of_vertices())); }
+  std::size_t negligible(double share) const
+  {
+    return std::size_t(share * double(extent_ > 0 ? extent_ : surface_.mesh.number_of_vertices()));
+  }
 
   /// Repeats `sweep` until there is little left to do.
   template <class Sweep>
@@ -291,10 +382,16 @@ private:
   static constexpr double largest_scale = 1.2;           // of the metric meanwhile, its logarithm: lengths by 1.8
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
+  static constexpr int max_corrections_of_deviation = 4;
+  static constexpr double safety_of_deviation = 0.9;     // once one is missed
+  static constexpr double largest_growth = 1.3;          // of the number of vertices, for a deviation
+  static constexpr double vertices_of_correction = is_anisotropic ? 4 : 2; // that a face costs which is too far away
+  static constexpr double strongest_step = 0.5, weakest_step = 0.8; // of sizes, in one correction
   static constexpr int least_steps_of_fit = 4, max_steps_of_fit = 16;
   static constexpr double min_fitted_quality = 0.5;
   static constexpr double adapted_share = 0.95;          // of the edges in range
   static constexpr double expected_share = 0.8;          // of the edges in range in the end: less is not usual
+  static constexpr double expected_excess = 1.3;         // of a deviation over what was asked for, the same
   static constexpr double least_gain = 0.0015;           // in the share of edges in range or in mean quality
 
   const Execution& execution_;
@@ -307,7 +404,9 @@ private:
   Relocation<Surface, Execution> relocation_;
   Adaptation_report report_;
   std::size_t round_ = 0;
+  std::size_t extent_ = 0;   // number of vertices of the part that is worked on; 0: all
   bool is_adapted_ = false;  // from the beginning
+  bool is_restored_ = false; // to an earlier state, behind the last round
   bool is_irregular_ = true; // so much that it is worth to go on with regularization
 };
 

@@ -47,7 +47,7 @@ struct Adaptation_report
   std::string execution;           ///< name of the execution policy
   int threads = 1;
   Mesh_statistics initial;         ///< the input in the metric asked for
-  Mesh_statistics final;           ///< the output in the same metric
+  Mesh_statistics final;           ///< the output in the same metric, tightened where its faces left the surface
   std::size_t rounds = 0;          ///< rounds done
   bool stopped = false;            ///< by the visitor
   std::vector<std::string> repairs; ///< what was mended in the input before, one sentence each
@@ -58,6 +58,8 @@ struct Adaptation_report
   double tolerance = 0;            ///< largest distance allowed between input and output; 0: none was asked for
   double certified_distance = 0;   ///< if one was: an upper bound of their Hausdorff distance, by 2 % of it too large
                                    ///< at most
+  double deviation = 0;            ///< with the tolerance of a `Curvature_metric_field`: largest distance from the surface
+                                   ///< at some places of each face, and of a vertex of the input from the faces
   double seconds = 0;
 
   /// Writes the report as one JSON object.
@@ -123,6 +125,7 @@ inline void Adaptation_report::write_json(std::ostream& out) const
   internal::write_json(out, final);
   if (tolerance > 0)
     out << ",\n  \"tolerance\": " << tolerance << ", \"certified_distance\": " << certified_distance;
+  if (deviation > 0) out << ",\n  \"deviation\": " << deviation;
   const auto sentence = [&](const std::string& s) { internal::write_json(out, s); };
   out << ",\n  \"repairs\": ";
   internal::write_json_list(out, repairs, sentence);

@@ -15,6 +15,7 @@
 #include <CGAL/Surface_mesh_adaptation/metric.h>
 #include <CGAL/Surface_mesh_adaptation/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
+#include <CGAL/Surface_mesh_adaptation/tightened_metric.h>
 
 #include <algorithm>
 #include <array>
@@ -366,6 +367,27 @@ public:
     for_each_index(execution, metrics.size(), [&](std::size_t v) { metrics[v] = scaled(metrics[v], factor); });
   }
 
+  /// Multiplies the sizes at the vertices by those `factors` that are below 1, and around them as the gradation wants
+  /// it. Returns a 1 for each vertex of which that changes the metric. \pre no vertex is removed
+  template <class Execution>
+  std::vector<std::uint8_t> tighten_metric(const Execution& execution, const std::vector<double>& factors)
+  {
+    const auto surface_point = [&](Index v) { return Surface_point{points[v], normals[v]}; };
+    std::vector<Graded_bounds::Source> sources = bounds_.sources();
+    for (const Index v : pack(execution, factors.size(), [&](std::size_t i) { return factors[i] < 1; })) {
+      const Metric untightened = background_->at(*reference_, locations[v], surface_point(v));
+      sources.push_back(tightening(untightened, bounds_, points[v], factors[v], background_->aims()));
+    }
+    bounds_ = Graded_bounds(execution, std::move(sources));
+    std::vector<std::uint8_t> is_changed(metrics.size());
+    for_each_index(execution, metrics.size(), [&](std::size_t v) {
+      const Metric now = metric(locations[v], surface_point(Index(v)));
+      is_changed[v] = now == metrics[v] ? 0 : 1;
+      metrics[v] = now;
+    });
+    return is_changed;
+  }
+
   /// Gives back the memory; nothing but the destructor may be called afterwards.
   template <class Execution>
   void release(const Execution& execution)
@@ -427,8 +449,13 @@ private:
 
   Placed_vertex<Metric> place(const Location& l, const Surface_point& p) const
   {
-    const Metric metric = background_->at(*reference_, l, p);
-    return {l, near_input(l, p.position), p.normal, scale_ == 1 ? metric : scaled(metric, scale_)};
+    return {l, near_input(l, p.position), p.normal, metric(l, p)};
+  }
+
+  Metric metric(const Location& l, const Surface_point& p) const
+  {
+    const Metric of_background = background_->at(*reference_, l, p);
+    return tightened(scale_ == 1 ? of_background : scaled(of_background, scale_), bounds_, p.position);
   }
 
   static constexpr double max_skew = 0.1;         // of a parallelogram, in lengths of the diagonal
@@ -445,6 +472,7 @@ private:
   const Tolerance* tolerance_;
   std::optional<Covered_points> covered_; // if there is a tolerance
   double scale_ = 1; ///< of the metric
+  Graded_bounds bounds_; ///< by which it is tightened
 };
 
 } // namespace Surface_mesh_adaptation

@@ -42,6 +42,15 @@ inline bool is_valid_size(double size) { return size > 0 && std::isnormal(size *
 
 } // namespace internal
 
+/// What an adapted mesh is to reach beyond unit edges.
+struct Metric_aims
+{
+  double number_of_vertices = 0; ///< 0: any
+  double deviation = 0;          ///< largest distance of its faces from the surface; 0: any
+  double hmin = 0;               ///< smallest size of a metric that is tightened for that
+  double gradation = 1;          ///< and its gradation
+};
+
 template <class Metric> class Metric_background;
 
 /// Sizes at the vertices of the reference, interpolated linearly, or a formula.
@@ -59,8 +68,8 @@ public:
 
   /// \throws Invalid_metric_error for a size that is not positive and finite
   template <class Execution>
-  Metric_background(const Execution& execution, std::vector<double> sizes, double number_of_vertices = 0)
-    : sizes_(std::move(sizes)), number_of_vertices_(number_of_vertices)
+  Metric_background(const Execution& execution, std::vector<double> sizes, const Metric_aims& aims = {})
+    : sizes_(std::move(sizes)), aims_(aims)
   {
     const std::size_t bad = internal::first_invalid(execution, sizes_.size(), [&](std::size_t v) {
       return internal::is_valid_size(sizes_[v]);
@@ -71,7 +80,7 @@ public:
   explicit Metric_background(Formula formula) : formula_(std::move(formula)) {}
 
   /// The number of vertices that an adapted mesh is to have; 0: any.
-  double number_of_vertices() const { return number_of_vertices_; }
+  const Metric_aims& aims() const { return aims_; }
 
   template <class Reference>
   Isotropic_metric at(const Reference& reference, const Location& l, const Surface_point& p) const
@@ -90,7 +99,7 @@ public:
 private:
   double uniform_ = 0;
   std::vector<double> sizes_;
-  double number_of_vertices_ = 0;
+  Metric_aims aims_;
   Formula formula_;
 };
 
@@ -105,8 +114,8 @@ public:
   /// \throws Invalid_metric_error for a tensor that is not finite and positive definite
   template <class Execution>
   Metric_background(const Execution& execution, const std::vector<Metric_tensor_3>& tensors,
-                    double number_of_vertices = 0)
-    : logarithms_(tensors.size()), number_of_vertices_(number_of_vertices)
+                    const Metric_aims& aims = {})
+    : logarithms_(tensors.size()), aims_(aims)
   {
     const std::size_t bad = internal::first_invalid(execution, tensors.size(), [&](std::size_t v) {
       return is_positive_definite(tensors[v]);
@@ -118,7 +127,7 @@ public:
   explicit Metric_background(Formula formula) : formula_(std::move(formula)) {}
 
   /// The number of vertices that an adapted mesh is to have; 0: any.
-  double number_of_vertices() const { return number_of_vertices_; }
+  const Metric_aims& aims() const { return aims_; }
 
   template <class Reference>
   Anisotropic_metric at(const Reference& reference, const Location& l, const Surface_point& p) const
@@ -143,7 +152,7 @@ public:
 
 private:
   std::vector<Metric_tensor_3> logarithms_;
-  double number_of_vertices_ = 0;
+  Metric_aims aims_;
   Formula formula_;
 };
 

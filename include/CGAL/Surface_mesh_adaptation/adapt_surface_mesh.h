@@ -56,7 +56,8 @@ void warn_of_bulges(const Any_execution& execution, const Curvature_metric_field
   if (bulge == 0) return;
   report.warnings.push_back("the smooth surface leaves the faces of the input by up to " + number(bulge) + ", " +
                             number(std::round(bulge / tolerance)) +
-                            " times the tolerance of the sizes: the input is coarse for that");
+                            " times the tolerance of the sizes: the input is coarse for that. A flat "
+                            "reconstruction (`--flat`) keeps to its faces");
 }
 
 /// `adapt_surface_mesh` with a policy that is known at run time only: compiled once for all policies.
@@ -73,8 +74,7 @@ Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, cons
   Adaptation_report report = adapt_in_place(interruptible, mesh, field, np, [&](const auto& policy, auto& surface) {
     Adaptation_report result =
       Adaptation_driver(policy, surface, visitor)
-        .run(rounds, surface.background().number_of_vertices(),
-             choose(np, internal_np::fit_to_surface, std::false_type()), shape_weight);
+        .run(rounds, choose(np, internal_np::fit_to_surface, std::false_type()), shape_weight);
     warn_of_bulges(policy, field, surface.reference(), result);
     return result;
   });
@@ -110,7 +110,7 @@ step at the end: if anything throws, it is as it was.
     \cgalParamDescription{the largest number of rounds}
     \cgalParamType{`unsigned int`}
     \cgalParamDefault{`8`; fewer are done if nothing is left to gain, more if the field asks for a number of vertices
-                      that is missed}
+                      or a distance from the surface that is missed}
   \cgalParamNEnd
   \cgalParamNBegin{feature_angle}
     \cgalParamDescription{an edge is a ridge if the normals of its faces differ by more than this}

@@ -24,6 +24,8 @@ struct Isotropic_metric
   /// Number of unit areas per area of space.
   double density() const { return inverse_size * inverse_size; }
   Metric_tensor_3 tensor() const { return Metric_tensor_3::isotropic(1 / inverse_size); }
+
+  friend bool operator==(const Isotropic_metric& a, const Isotropic_metric& b) { return a.inverse_size == b.inverse_size; }
 };
 
 /// A full metric tensor at a vertex.
@@ -34,6 +36,8 @@ struct Anisotropic_metric
   double length(const Vector_3& e) const { return m.length(e); }
   double squared_length(const Vector_3& e) const { return m.squared_length(e); }
   const Metric_tensor_3& tensor() const { return m; }
+
+  friend bool operator==(const Anisotropic_metric& a, const Anisotropic_metric& b) { return a.m == b.m; }
 };
 
 /// The metric in which areas are `factor` times as large.

@@ -49,7 +49,9 @@ struct Uniform_metric_field
 /// Sizes from the curvature of the surface, so that the distance between the surface and its faces stays near a
 /// tolerance: the size along a principal direction of curvature `k` is `sqrt(6 tolerance / |k|)`, which is exact where
 /// both curvatures have the same sign, and too small by a factor of up to `sqrt(4 / 3)` on saddles. The surface is the
-/// smooth one over the faces of the input; no distance is certified, see the parameter `tolerance` for that.
+/// smooth one over the faces of the input, or these with `Flat_reconstruction`. After the rounds sizes are tightened
+/// around faces that are farther away than that, until there are 1.3 times the vertices; the report warns of more
+/// than 1.3 times the tolerance. No distance is certified, see the parameter `tolerance` for that.
 ///
 /// Lengths are in the unit of the coordinates. An `hmin` above `hmax` or a `max_anisotropy` below 1 makes the adaptation
 /// throw an `Invalid_parameter_error`.
@@ -375,6 +377,22 @@ double attainable_number_of_vertices(const Execution& execution, const Field& fi
   return std::abs(std::log(expected / asked)) <= normalization_precision ? asked : expected;
 }
 
+/// What a field asks for beyond its metric, of which the `values` are those at the vertices.
+template <class Execution, class Field, class Reference, class Value>
+Metric_aims aims(const Execution& execution, const Field& field, const Reference& reference,
+                 const std::vector<Value>& values)
+{
+  Metric_aims result;
+  result.number_of_vertices = attainable_number_of_vertices(execution, field, reference, values);
+  if constexpr (std::is_same_v<Field, Curvature_metric_field>) {
+    if (field.vertices > 0) return result;
+    result.deviation = field.relative_tolerance * diagonal_of_bounding_box(reference.points);
+    result.hmin = field.hmin > 0 ? field.hmin : result.deviation;
+    result.gradation = gradation(field);
+  }
+  return result;
+}
+
 /// `with_background(execution, field, imported, reference, use)` calls `use(background)` with the metric background
 /// that `field` stands for on the reference surface.
 template <class Execution, class Import, class Reference, class Use>
@@ -401,8 +419,8 @@ void with_background(const Execution& execution, const Field& field, const Impor
   with_vertex_metric(execution, field, imported, reference, [&](auto values) {
     using Value = typename decltype(values)::value_type;
     using Metric = std::conditional_t<std::is_same_v<Value, Metric_tensor_3>, Anisotropic_metric, Isotropic_metric>;
-    const double vertices = attainable_number_of_vertices(execution, field, reference, values);
-    use(Metric_background<Metric>(execution, std::move(values), vertices));
+    const Metric_aims asked = aims(execution, field, reference, values);
+    use(Metric_background<Metric>(execution, std::move(values), asked));
   });
 }
 
