@@ -5,8 +5,8 @@
 
 #include "../../test/Surface_mesh_adaptation/analytic_surfaces.h"
 
-#include <CGAL/Surface_mesh_adaptation/exponential_map.h>
-#include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
+#include <CGAL/Surface_mesh_adaptation/metric/parallel_transport.h>
+#include <CGAL/Surface_mesh_adaptation/surface/exponential_map.h>
 #include <CGAL/Surface_mesh_adaptation/surface_reconstruction.h>
 
 #include <benchmark/benchmark.h>

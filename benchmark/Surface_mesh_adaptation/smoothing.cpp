@@ -8,7 +8,7 @@
 #include "common.h"
 #include "../../test/Surface_mesh_adaptation/shapes.h"
 
-#include <CGAL/Surface_mesh_adaptation/surface_distance.h>
+#include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
 
 #include <algorithm>
 #include <array>

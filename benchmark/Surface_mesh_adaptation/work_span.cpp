@@ -8,8 +8,8 @@
 
 #include "common.h"
 
-#include <CGAL/Surface_mesh_adaptation/Profiled_execution.h>
-#include <CGAL/Surface_mesh_adaptation/keep_freed_memory.h>
+#include <CGAL/Surface_mesh_adaptation/execution/Profiled_execution.h>
+#include <CGAL/Surface_mesh_adaptation/execution/keep_freed_memory.h>
 
 #include <algorithm>
 #include <cstdio>

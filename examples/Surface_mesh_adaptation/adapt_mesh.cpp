@@ -15,7 +15,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
-#include <CGAL/Surface_mesh_adaptation/keep_freed_memory.h>
+#include <CGAL/Surface_mesh_adaptation/execution/keep_freed_memory.h>
 
 #include <csignal>
 #include <exception>

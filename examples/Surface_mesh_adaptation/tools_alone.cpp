@@ -3,14 +3,14 @@
 // What the kernels are made of, without them: curvatures and second derivatives at the vertices, a smooth patch over a
 // face, a step along the surface, and a colouring. In the end, a simplification within limits and its error.
 
-#include <CGAL/Surface_mesh_adaptation/exponential_map.h>
-#include <CGAL/Surface_mesh_adaptation/face_graph.h>
-#include <CGAL/Surface_mesh_adaptation/hessian.h>
-#include <CGAL/Surface_mesh_adaptation/parallel_transport.h>
+#include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
+#include <CGAL/Surface_mesh_adaptation/fields/hessian.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
+#include <CGAL/Surface_mesh_adaptation/metric/parallel_transport.h>
 #include <CGAL/Surface_mesh_adaptation/simplify.h>
-#include <CGAL/Surface_mesh_adaptation/surface_distance.h>
+#include <CGAL/Surface_mesh_adaptation/surface/exponential_map.h>
+#include <CGAL/Surface_mesh_adaptation/surface/vertex_jets.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
-#include <CGAL/Surface_mesh_adaptation/vertex_jets.h>
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

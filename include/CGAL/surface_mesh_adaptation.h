@@ -7,17 +7,17 @@
 
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
-#include <CGAL/Surface_mesh_adaptation/attribute_transfer.h>
+#include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
+#include <CGAL/Surface_mesh_adaptation/driver/attribute_transfer.h>
 #include <CGAL/Surface_mesh_adaptation/estimate_vertex_jets.h>
-#include <CGAL/Surface_mesh_adaptation/exponential_map.h>
-#include <CGAL/Surface_mesh_adaptation/feature_normals.h>
-#include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
-#include <CGAL/Surface_mesh_adaptation/patch_fallbacks.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/minimize_worst.h>
 #include <CGAL/Surface_mesh_adaptation/refine.h>
 #include <CGAL/Surface_mesh_adaptation/regularize.h>
 #include <CGAL/Surface_mesh_adaptation/relocate.h>
 #include <CGAL/Surface_mesh_adaptation/simplify.h>
-#include <CGAL/Surface_mesh_adaptation/surface_distance.h>
+#include <CGAL/Surface_mesh_adaptation/surface/exponential_map.h>
+#include <CGAL/Surface_mesh_adaptation/surface/feature_normals.h>
+#include <CGAL/Surface_mesh_adaptation/surface/patch_fallbacks.h>
 #include <CGAL/Surface_mesh_adaptation/swap.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/graph_coloring.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>

@@ -9,7 +9,7 @@
 #include "checks.h"
 #include "shapes.h"
 
-#include <CGAL/Surface_mesh_adaptation/Patch.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Patch.h>
 
 #include <array>
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include "shapes.h"
 
-#include <CGAL/Surface_mesh_adaptation/metric_normalization.h>
+#include <CGAL/Surface_mesh_adaptation/fields/metric_normalization.h>
 
 #include <cmath>
 

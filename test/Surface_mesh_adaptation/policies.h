@@ -5,7 +5,7 @@
 #ifndef TEST_SURFACE_MESH_ADAPTATION_POLICIES_H
 #define TEST_SURFACE_MESH_ADAPTATION_POLICIES_H
 
-#include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 
 #include <string>
 

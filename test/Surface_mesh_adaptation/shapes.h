@@ -6,8 +6,8 @@
 #ifndef TEST_SURFACE_MESH_ADAPTATION_SHAPES_H
 #define TEST_SURFACE_MESH_ADAPTATION_SHAPES_H
 
-#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
-#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/helpers.h>

@@ -9,7 +9,7 @@
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
-#include <CGAL/Surface_mesh_adaptation/surface_distance.h>
+#include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Simple_cartesian.h>

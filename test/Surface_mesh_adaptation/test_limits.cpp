@@ -8,7 +8,7 @@
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
-#include <CGAL/Surface_mesh_adaptation/internal/Any_execution.h>
+#include <CGAL/Surface_mesh_adaptation/execution/Any_execution.h>
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
 #include <CGAL/Surface_mesh_adaptation/refine.h>
 

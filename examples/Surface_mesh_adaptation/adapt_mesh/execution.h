@@ -5,7 +5,7 @@
 
 #include "options.h"
 
-#include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 
 #include <string>
 

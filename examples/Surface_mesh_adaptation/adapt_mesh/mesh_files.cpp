@@ -13,7 +13,7 @@
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
 #include <CGAL/Surface_mesh_adaptation/IO/repair.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
-#include <CGAL/Surface_mesh_adaptation/face_graph.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>

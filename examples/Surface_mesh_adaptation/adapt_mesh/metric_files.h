@@ -8,7 +8,7 @@
 #include "mesh_files.h"
 
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
-#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,14 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_ADAPT_SURFACE_MESH_H
 #define CGAL_SURFACE_MESH_ADAPTATION_ADAPT_SURFACE_MESH_H
 
-#include <CGAL/Surface_mesh_adaptation/Adaptation_driver.h>
 #include <CGAL/Surface_mesh_adaptation/Adaptation_visitor.h>
-#include <CGAL/Surface_mesh_adaptation/internal/in_place.h>
-#include <CGAL/Surface_mesh_adaptation/surface_bulge.h>
+#include <CGAL/Surface_mesh_adaptation/driver/Adaptation_driver.h>
+#include <CGAL/Surface_mesh_adaptation/driver/in_place.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/metric_fields.h>
+#include <CGAL/Surface_mesh_adaptation/parameters.h>
+#include <CGAL/Surface_mesh_adaptation/surface/surface_bulge.h>
+#include <CGAL/Surface_mesh_adaptation/surface_reconstruction.h>
 
 #include <cmath>
 #include <cstddef>

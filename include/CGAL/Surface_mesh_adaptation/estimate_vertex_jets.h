@@ -3,7 +3,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_ESTIMATE_VERTEX_JETS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_ESTIMATE_VERTEX_JETS_H
 
-#include <CGAL/Surface_mesh_adaptation/internal/in_place.h>
+#include <CGAL/Surface_mesh_adaptation/driver/in_place.h>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {

@@ -47,68 +47,36 @@ private:
   std::size_t index_;
 };
 
+/// Defines the class `NAME` of inputs of which an element is wrong: constructed from its index.
+#define CGAL_SMA_INVALID_INPUT_ERROR(NAME, WHAT, ELEMENT)                           \
+  class NAME : public Invalid_input_error                                          \
+  {                                                                                \
+  public:                                                                          \
+    explicit NAME(std::size_t index) : Invalid_input_error(WHAT, ELEMENT, index) {} \
+  }
+
 /// A face with other than three corners.
-class Non_triangular_face_error : public Invalid_input_error
-{
-public:
-  explicit Non_triangular_face_error(std::size_t face)
-    : Invalid_input_error("the mesh has a face that is not a triangle", "face", face)
-  {}
-};
+CGAL_SMA_INVALID_INPUT_ERROR(Non_triangular_face_error, "the mesh has a face that is not a triangle", "face");
 
 /// A vertex whose incident faces do not form one fan, or an isolated vertex.
-class Non_manifold_vertex_error : public Invalid_input_error
-{
-public:
-  explicit Non_manifold_vertex_error(std::size_t vertex)
-    : Invalid_input_error("the faces around a vertex do not form a single fan", "vertex", vertex)
-  {}
-};
+CGAL_SMA_INVALID_INPUT_ERROR(Non_manifold_vertex_error, "the faces around a vertex do not form a single fan", "vertex");
 
 /// Two faces that share two vertices but are not neighbours across them: the mesh is not a simplicial surface.
-class Non_simplicial_edge_error : public Invalid_input_error
-{
-public:
-  explicit Non_simplicial_edge_error(std::size_t vertex)
-    : Invalid_input_error("two edges join the same two vertices", "vertex", vertex)
-  {}
-};
+CGAL_SMA_INVALID_INPUT_ERROR(Non_simplicial_edge_error, "two edges join the same two vertices", "vertex");
 
 /// A coordinate that is NaN or infinite.
-class Non_finite_coordinate_error : public Invalid_input_error
-{
-public:
-  explicit Non_finite_coordinate_error(std::size_t vertex)
-    : Invalid_input_error("the mesh has a coordinate that is not finite", "vertex", vertex)
-  {}
-};
+CGAL_SMA_INVALID_INPUT_ERROR(Non_finite_coordinate_error, "the mesh has a coordinate that is not finite", "vertex");
 
 /// A size that is not positive and finite, or a tensor that is not symmetric positive definite and finite.
-class Invalid_metric_error : public Invalid_input_error
-{
-public:
-  explicit Invalid_metric_error(std::size_t vertex)
-    : Invalid_input_error("the metric is not finite and positive definite", "vertex", vertex)
-  {}
-};
+CGAL_SMA_INVALID_INPUT_ERROR(Invalid_metric_error, "the metric is not finite and positive definite", "vertex");
 
 /// A value of a scalar field that is NaN or infinite.
-class Invalid_field_error : public Invalid_input_error
-{
-public:
-  explicit Invalid_field_error(std::size_t vertex)
-    : Invalid_input_error("the value of the field is not finite", "vertex", vertex)
-  {}
-};
+CGAL_SMA_INVALID_INPUT_ERROR(Invalid_field_error, "the value of the field is not finite", "vertex");
 
 /// A normal given for a vertex that is zero, NaN or infinite, or a shape operator that is not finite.
-class Invalid_normal_error : public Invalid_input_error
-{
-public:
-  explicit Invalid_normal_error(std::size_t vertex)
-    : Invalid_input_error("the normal is zero or it or the shape operator is not finite", "vertex", vertex)
-  {}
-};
+CGAL_SMA_INVALID_INPUT_ERROR(Invalid_normal_error, "the normal is zero or it or the shape operator is not finite", "vertex");
+
+#undef CGAL_SMA_INVALID_INPUT_ERROR
 
 /// An input with no face.
 class Empty_mesh_error : public Adaptation_error

@@ -47,7 +47,7 @@ struct Adaptation_parameters : CGAL::Named_function_parameters<T, Tag, Base>
   {                                                                                             \
     return Adaptation_parameters<K, TAG, self>(value, *this);                                   \
   }
-#include <CGAL/Surface_mesh_adaptation/internal/parameters_interface.h>
+#include <CGAL/Surface_mesh_adaptation/driver/parameters_interface.h>
 #undef CGAL_SMA_NAMED_PARAMETER
 };
 
@@ -61,7 +61,7 @@ inline CGAL::parameters::Default_named_parameters default_values() { return CGAL
   {                                                                                             \
     return Adaptation_parameters<K, TAG>(value);                                                \
   }
-#include <CGAL/Surface_mesh_adaptation/internal/parameters_interface.h>
+#include <CGAL/Surface_mesh_adaptation/driver/parameters_interface.h>
 #undef CGAL_SMA_NAMED_PARAMETER
 
 } // namespace parameters

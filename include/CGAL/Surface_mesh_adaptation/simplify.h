@@ -3,7 +3,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_SIMPLIFY_H
 #define CGAL_SURFACE_MESH_ADAPTATION_SIMPLIFY_H
 
-#include <CGAL/Surface_mesh_adaptation/internal/run_kernel.h>
+#include <CGAL/Surface_mesh_adaptation/driver/run_kernel.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Approximation.h>
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_RECONSTRUCTION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_RECONSTRUCTION_H
 
-#include <CGAL/Surface_mesh_adaptation/Gregory_patch_3.h>
-#include <CGAL/Surface_mesh_adaptation/Patch.h>
-#include <CGAL/Surface_mesh_adaptation/internal/cubic_curve.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/cubic_curve.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Gregory_patch_3.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Patch.h>
 
 #include <cstddef>
 

@@ -11,8 +11,8 @@
 #include <CGAL/Surface_mesh_adaptation/IO/triangulate_polygons.h>
 #include <CGAL/Surface_mesh_adaptation/IO/weld.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
-#include <CGAL/Surface_mesh_adaptation/execution.h>
-#include <CGAL/Surface_mesh_adaptation/face_graph.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>

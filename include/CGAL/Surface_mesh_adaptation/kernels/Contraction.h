@@ -18,15 +18,15 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CONTRACTION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CONTRACTION_H
 
-#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
-#include <CGAL/Surface_mesh_adaptation/Merged_star.h>
-#include <CGAL/Surface_mesh_adaptation/Quadric_3.h>
-#include <CGAL/Surface_mesh_adaptation/Represented_points.h>
-#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/distance/Represented_points.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Simplification.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/border_claims.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/collapse.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Merged_star.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/Quadric_3.h>
 
 #include <algorithm>
 #include <cmath>

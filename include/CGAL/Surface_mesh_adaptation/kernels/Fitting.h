@@ -17,11 +17,11 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_FITTING_H
 
-#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
-#include <CGAL/Surface_mesh_adaptation/Buffer.h>
-#include <CGAL/Surface_mesh_adaptation/internal/closest_point.h>
-#include <CGAL/Surface_mesh_adaptation/internal/Cholesky.h>
+#include <CGAL/Surface_mesh_adaptation/execution/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/centering.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/Cholesky.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/closest_point.h>
 
 #include <Eigen/Core>
 

@@ -12,15 +12,15 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_REFINEMENT_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_REFINEMENT_H
 
-#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
-#include <CGAL/Surface_mesh_adaptation/Buffer.h>
-#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
-#include <CGAL/Surface_mesh_adaptation/execution.h>
-#include <CGAL/Surface_mesh_adaptation/expected_size.h>
-#include <CGAL/Surface_mesh_adaptation/fill_holes.h>
+#include <CGAL/Surface_mesh_adaptation/execution/Buffer.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/fields/expected_size.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
-#include <CGAL/Surface_mesh_adaptation/restructure.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/fill_holes.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/restructure.h>
 
 #include <algorithm>
 #include <cmath>

@@ -16,11 +16,11 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_REGULARIZATION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_REGULARIZATION_H
 
-#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
-#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Simplification.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/degrees.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>

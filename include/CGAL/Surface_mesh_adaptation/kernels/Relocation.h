@@ -18,12 +18,12 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_RELOCATION_H
 
-#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
-#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/centering.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
-#include <CGAL/Surface_mesh_adaptation/minimize_worst.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/minimize_worst.h>
 
 #include <algorithm>
 #include <array>

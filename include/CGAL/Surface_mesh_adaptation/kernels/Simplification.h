@@ -13,12 +13,12 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SIMPLIFICATION_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SIMPLIFICATION_H
 
-#include <CGAL/Surface_mesh_adaptation/Adapted_surface.h>
-#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/border_claims.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/collapse.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
 
 #include <algorithm>
 #include <utility>

@@ -6,9 +6,9 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_BORDER_CLAIMS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_BORDER_CLAIMS_H
 
-#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
-#include <CGAL/Surface_mesh_adaptation/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>

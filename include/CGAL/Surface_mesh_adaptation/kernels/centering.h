@@ -6,7 +6,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CENTERING_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CENTERING_H
 
-#include <CGAL/Surface_mesh_adaptation/metric.h>
+#include <CGAL/Surface_mesh_adaptation/metric/metric.h>
 
 #include <cmath>
 

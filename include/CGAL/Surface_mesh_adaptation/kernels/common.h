@@ -5,8 +5,8 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_COMMON_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_COMMON_H
 
-#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
-#include <CGAL/Surface_mesh_adaptation/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
 
 #include <boost/atomic/atomic_ref.hpp>
 

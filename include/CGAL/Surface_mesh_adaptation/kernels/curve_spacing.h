@@ -8,8 +8,8 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_SPACING_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_CURVE_SPACING_H
 
-#include <CGAL/Surface_mesh_adaptation/Features.h>
-#include <CGAL/Surface_mesh_adaptation/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Features.h>
 
 #include <algorithm>
 #include <array>

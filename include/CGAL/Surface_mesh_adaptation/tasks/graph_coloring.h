@@ -10,7 +10,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_TASKS_GRAPH_COLORING_H
 #define CGAL_SURFACE_MESH_ADAPTATION_TASKS_GRAPH_COLORING_H
 
-#include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_TASKS_INDEPENDENT_SET_H
 #define CGAL_SURFACE_MESH_ADAPTATION_TASKS_INDEPENDENT_SET_H
 
-#include <CGAL/Surface_mesh_adaptation/execution.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 
 #include <atomic>
 #include <cstddef>

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Renumbers an imported mesh along a curve that fills space, if its own order is poor.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_MESH_LOCALITY_H
+#define CGAL_SURFACE_MESH_ADAPTATION_MESH_LOCALITY_H
+
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+constexpr int hilbert_bits = 21; // three coordinates in one 64-bit key
+
+/// Position of a cell of a grid with `2^hilbert_bits` cells a side along the Hilbert curve (Skilling 2004).
+inline std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x)
+{
+  const std::uint32_t top = 1u << (hilbert_bits - 1);
+  for (std::uint32_t q = top; q > 1; q >>= 1) {
+    const std::uint32_t p = q - 1;
+    for (std::uint32_t& xi : x) {
+      if (xi & q) x[0] ^= p;
+      else {
+        const std::uint32_t t = (x[0] ^ xi) & p;
+        x[0] ^= t;
+        xi ^= t;
+      }
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t t = 0;
+  for (std::uint32_t q = top; q > 1; q >>= 1)
+    if (x[2] & q) t ^= q - 1;
+  for (std::uint32_t& xi : x) xi ^= t;
+  std::uint64_t key = 0;
+  for (int bit = hilbert_bits - 1; bit >= 0; --bit)
+    for (const std::uint32_t xi : x) key = (key << 1) | (xi >> bit & 1u);
+  return key;
+}
+
+/// The numbers `0 .. n - 1` sorted by key, ties by number. Blocks are sorted in parallel, then merged pairwise.
+template <class Execution>
+std::vector<Index> sorted_by_key(const Execution& execution, const std::vector<std::uint64_t>& key)
+{
+  std::vector<Index> order(key.size()), merged(key.size());
+  const auto less = [&](Index a, Index b) { return key[a] < key[b] || (key[a] == key[b] && a < b); };
+  const auto at = [](std::vector<Index>& v, std::size_t i) { return v.begin() + std::ptrdiff_t(i); };
+  constexpr std::size_t run_length = 1 << 15;
+  for_each_chunk(execution, key.size(), run_length, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) order[i] = Index(i);
+    std::sort(at(order, begin), at(order, end), less);
+  });
+  for (std::size_t length = run_length; length < key.size(); length *= 2) {
+    for_each_chunk(execution, key.size(), 2 * length, [&](std::size_t, std::size_t begin, std::size_t end) {
+      const std::size_t middle = (std::min)(begin + length, end);
+      std::merge(at(order, begin), at(order, middle), at(order, middle), at(order, end), at(merged, begin), less);
+    });
+    order.swap(merged);
+  }
+  return order;
+}
+
+template <class Execution>
+std::vector<Index> inverse(const Execution& execution, const std::vector<Index>& permutation)
+{
+  std::vector<Index> result(permutation.size());
+  for_each_index(execution, permutation.size(), [&](std::size_t i) { result[permutation[i]] = Index(i); });
+  return result;
+}
+
+/// `result[i] = items[order[i / width] * width + i % width]`
+template <class Execution, class Items>
+void reorder(const Execution& execution, const std::vector<Index>& order, std::size_t width, Items& items)
+{
+  if (items.empty()) return;
+  Items result;
+  result.resize(items.size());
+  for_each_index(execution, items.size(), [&](std::size_t i) { result[i] = items[order[i / width] * width + i % width]; });
+  items.swap(result);
+}
+
+/// The order of the vertices along the Hilbert curve through the bounding box.
+template <class Execution>
+std::vector<Index> hilbert_order(const Execution& execution, const std::vector<Vector_3>& points)
+{
+  Vector_3 low = points[0], high = points[0];
+  for (const Vector_3& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double side = (high - low).maxCoeff();
+  const double scale = side > 0 ? double((1u << hilbert_bits) - 1) / side : 0;
+  std::vector<std::uint64_t> key(points.size());
+  for_each_index(execution, points.size(), [&](std::size_t v) {
+    const Vector_3 x = scale * (points[v] - low);
+    key[v] = hilbert_key({std::uint32_t(x[0]), std::uint32_t(x[1]), std::uint32_t(x[2])});
+  });
+  return sorted_by_key(execution, key);
+}
+
+/// Share of the halfedges between vertices of which the numbers differ by less than `small_distance`.
+template <class Execution>
+double share_of_near_ends(const Execution& execution, const Mesh_view& mesh)
+{
+  constexpr Index small_distance = 64;
+  const std::size_t n = mesh.number_of_halfedges();
+  return double(count_if(execution, n, [&](std::size_t h) {
+    const Index v = mesh.source(Index(h)), w = mesh.target(Index(h));
+    return (v < w ? w - v : v - w) < small_distance;
+  })) / double(n);
+}
+
+/// A Hilbert order and what refinement makes of it reach 0.8. The distance is small on purpose: long strips look good
+/// at the scale of blocks, and are a poor order once they are refined.
+constexpr double good_locality = 0.7;
+
+/// Renumbers vertices along the Hilbert curve, and faces by their smallest vertex, unless the order is good already; the
+/// marks of `constraints` at halfedges and vertices follow.
+/// Returns the numbers that the vertices had; none if they keep them.
+template <class Execution, class Import, class Constraints>
+std::vector<Index> improve_locality(const Execution& execution, Import& imported, Constraints& constraints)
+{
+  Mesh_view& mesh = imported.mesh;
+  if (share_of_near_ends(execution, mesh) >= good_locality) return {};
+  std::vector<Index> vertex_order = hilbert_order(execution, imported.points);
+  const std::vector<Index> new_vertex = inverse(execution, vertex_order);
+  std::vector<std::uint64_t> face_key(mesh.number_of_faces());
+  for_each_index(execution, face_key.size(), [&](std::size_t f) {
+    face_key[f] = (std::min)({new_vertex[mesh.corner[3 * f]], new_vertex[mesh.corner[3 * f + 1]],
+                              new_vertex[mesh.corner[3 * f + 2]]});
+  });
+  const std::vector<Index> face_order = sorted_by_key(execution, face_key);
+  const std::vector<Index> new_face = inverse(execution, face_order);
+  const auto new_halfedge = [&](Index h) { return h == no_index ? h : 3 * new_face[h / 3] + h % 3; };
+
+  for_each_index(execution, mesh.number_of_halfedges(), [&](std::size_t h) {
+    mesh.corner[h] = new_vertex[mesh.corner[h]];
+    mesh.twin[h] = new_halfedge(mesh.twin[h]);
+  });
+  for_each_index(execution, mesh.number_of_vertices(), [&](std::size_t v) {
+    mesh.outgoing[v] = new_halfedge(mesh.outgoing[v]);
+  });
+  reorder(execution, face_order, 3, mesh.corner);
+  reorder(execution, face_order, 3, mesh.twin);
+  reorder(execution, face_order, 3, imported.halfedges);
+  reorder(execution, face_order, 3, constraints.halfedge_is_constrained);
+  reorder(execution, vertex_order, 1, mesh.outgoing);
+  reorder(execution, vertex_order, 1, imported.points);
+  reorder(execution, vertex_order, 1, imported.vertices);
+  reorder(execution, vertex_order, 1, constraints.vertex_is_constrained);
+  return vertex_order;
+}
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_MESH_LOCALITY_H

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which edges between the facets of a tessellation are edges of the shape, and which are smooth borders of its pieces.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FACET_EDGES_H
+#define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FACET_EDGES_H
+
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Edge_section.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+/// Where a plane ends smoothly in something curved, the turn is half of that from facet to facet there. If it is more
+/// than all of it by this, five degrees, the plane ends in an edge.
+constexpr double least_turn_beside_rows = 0.087;
+
+/// Tells what edges are from how the surface turns there and beside them.
+class Facet_edges
+{
+public:
+  /// `marks` are those of the edges that are known already, by halfedges, and not 0.
+  Facet_edges(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets,
+              const std::vector<std::uint8_t>& marks)
+    : mesh_(mesh), points_(points), facets_(facets), marks_(marks)
+  {}
+
+  /// Whether a plane ends in an edge at `h`.
+  bool ends_plane(Index h) const
+  {
+    const Facet &f = facet(h), &g = facet(mesh_.twin[h]);
+    if (&f == &g || !(f.is_plane || g.is_plane)) return false;
+    const double turn = angle_between(f.normal, g.normal);
+    if (f.is_plane && g.is_plane) return turn > least_turn_between_planes;
+    const Facet& curved = f.is_plane ? g : f;
+    return curved.faces > 1 && curved.turn > 0 && turn > curved.turn + least_turn_beside_rows;
+  }
+
+  /// Whether the surface turns at `h` and next to it on neither side again alike: from one row of strips to another
+  /// one, say. Triangles alone turn as they happen to.
+  bool is_single_turn(Index h) const
+  {
+    const Index t = mesh_.twin[h];
+    if (are_one(h) || facet(h).faces + facet(t).faces < 3) return false;
+    const Edge_section section(mesh_, points_, facets_, h);
+    const double length2 = (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm();
+    const bool is_across = section.length() * section.length() > length2;
+    if (!(section.turn() > (is_across ? least_turn_across_strips : least_turn_along_strips))) return false;
+    return !turns_again(section, h, largest_turn_again, section.length()) &&
+           !turns_again(section, t, largest_turn_again, section.length());
+  }
+
+  /// Whether a plane ends at `h` in something curved, or strips do that are straight across it.
+  bool is_smooth_border(Index h) const
+  {
+    const Index t = mesh_.twin[h];
+    if (facet(h).is_plane || facet(t).is_plane) return facet(h).is_plane != facet(t).is_plane;
+    return !are_one(h) && (begins_to_bend(h) || begins_to_bend(t));
+  }
+
+private:
+  /// A turn is a single one if the surface turns no more than this part of it again on either side.
+  static constexpr double largest_turn_again = 1.0 / 3;
+
+  /// Turns that are less than this, five degrees, or ten where the facets are longer along the edge than across, are
+  /// what diagonals make of something smooth.
+  static constexpr double least_turn_across_strips = 0.087, least_turn_along_strips = 0.174;
+
+  /// Where a surface begins to bend it turns by half of what it does from facet to facet then: more than so many times
+  /// as much, if that is more than half a degree.
+  static constexpr double least_turn_after_half = 1.5, least_turn_of_facets = 0.009;
+
+  /// Whether the surface is straight across the edge of `h` up to there, for the length of a few facets, and bends from
+  /// there on in the facet of `h`. Of a triangle alone nobody knows whether it is straight.
+  bool begins_to_bend(Index h) const
+  {
+    constexpr double few = 3;
+    const Index t = mesh_.twin[h];
+    if (facet(t).faces == 1) return false;
+    const Edge_section section(mesh_, points_, facets_, h);
+    return section.turn() > least_turn_of_facets &&
+           turns_again(section, h, least_turn_after_half, section.length()) &&
+           !turns_again(section, t, largest_turn_again, few * section.length(h));
+  }
+
+  bool turns_again(const Edge_section& section, Index side, double part, double distance) const
+  {
+    return section.turns_again(side, part, distance, [&](Index h) { return marks_[h] != 0; });
+  }
+
+  const Facet& facet(Index h) const { return facets_.at(Mesh_view::face(h)); }
+  bool are_one(Index h) const { return facets_.are_one(Mesh_view::face(h), Mesh_view::face(mesh_.twin[h])); }
+
+  const Mesh_view& mesh_;
+  const std::vector<Vector_3>& points_;
+  const Facets& facets_;
+  const std::vector<std::uint8_t>& marks_;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FACET_EDGES_H

@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The facets of a tessellation: coplanar triangles that belong together, whatever the diagonals between them.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FACETS_H
+#define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FACETS_H
+
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/metric/metric.h>
+#include <CGAL/Surface_mesh_adaptation/surface/vertex_normals.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+struct Facet
+{
+  Vector_3 normal;        ///< unit
+  double area = 0;
+  Index faces = 0;        ///< number of its triangles
+  double turn = 0;        ///< mean angle, in radians, to the facets like it beside it
+  bool has_inner_vertices = false;
+  bool is_plane = false;  ///< whether it is a plane of the shape, not a chord of something curved
+};
+
+/// The facets of a mesh, if it is the tessellation of a CAD system or the like: else, and where a mesher has made good
+/// triangles of it, there are none.
+struct Facets
+{
+  double rounding = 0;          ///< how far the rounding of its coordinates may have moved a point
+  std::vector<Facet> facets;
+  std::vector<Index> of_face;   ///< index into `facets` for each face; empty if there are none
+
+  bool are_meshed = false;      ///< whether a mesher has been over them: many vertices lie inside of facets
+
+  bool empty() const { return of_face.empty(); }
+
+  /// Whether facets that are no planes are chords of something curved. Those of a mesher are what its triangles happen
+  /// to be.
+  bool are_chords() const { return !empty() && !are_meshed; }
+
+  const Facet& at(Index face) const { return facets[of_face[face]]; }
+  bool are_one(Index f, Index g) const { return !empty() && of_face[f] == of_face[g]; }
+  bool is_plane(Index face) const { return !empty() && at(face).is_plane; }
+
+  /// From the source of the halfedge `h`, on the border of a facet or on a feature in it, to where that ceases to be
+  /// straight.
+  /// \pre `mesh.curve` is set
+  Vector_3 side(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index h) const
+  {
+    const Vector_3& start = points[mesh.source(h)];
+    Index end = mesh.target(h);
+    for (int i = 0; i < longest_side; ++i) {
+      h = next_on_border(mesh, h);
+      if (!is_on_line(start, points[end], points[mesh.target(h)])) break;
+      end = mesh.target(h);
+    }
+    return points[end] - start;
+  }
+
+  /// Whether `c` is on the line from `a` to `b`, further on, but for the rounding of the three.
+  bool is_on_line(const Vector_3& a, const Vector_3& b, const Vector_3& c) const
+  {
+    const Vector_3 d = b - a, e = c - b;
+    const double length = d.norm();
+    return d.dot(e) > 0 && d.cross(e).norm() <= 2 * rounding * (2 * length + e.norm());
+  }
+
+private:
+  static constexpr int longest_side = 16; // edges; more of them on one side are rare, and then long enough
+
+  /// The halfedge on the border of a facet, or on a feature in it, that follows `h`, which is one.
+  Index next_on_border(const Mesh_view& mesh, Index h) const
+  {
+    Index g = Mesh_view::next(h);
+    while (!mesh.is_border(g) && !mesh.is_feature(g) && are_one(Mesh_view::face(g), Mesh_view::face(mesh.twin[g])))
+      g = Mesh_view::next(mesh.twin[g]);
+    return g;
+  }
+};
+
+namespace internal {
+
+/// Whether two sizes differ by the factor `ratio` at most.
+inline bool are_alike(double a, double b, double ratio) { return a <= ratio * b && b <= ratio * a; }
+
+/// Largest ratio of the areas, and of the sides, of facets of one net.
+constexpr double largest_ratio_in_nets = 4;
+
+/// Two planes of the shape meet in an edge if their normals are farther apart than this, in radians: two degrees.
+constexpr double least_turn_between_planes = 0.035;
+
+/// Whether `x` is a decimal number of so many digits, but for the rounding of `double`.
+inline bool is_decimal(double x, int digits)
+{
+  if (x == 0) return true;
+  const double scaled = std::abs(x) * std::pow(10.0, digits - 1 - std::floor(std::log10(std::abs(x))));
+  return std::abs(scaled - std::round(scaled)) <= 1e-9 + 4 * std::numeric_limits<double>::epsilon() * scaled;
+}
+
+/// How far the rounding of coordinates may have moved the points: to the least of some numbers of decimal digits that
+/// all coordinates agree with, as in files of text, or else to single or to double precision.
+template <class Execution>
+double coordinate_rounding(const Execution& execution, const std::vector<Vector_3>& points)
+{
+  const auto all = [&](const auto& predicate) {
+    const auto fails = [&](const Vector_3& p) { return !(predicate(p[0]) && predicate(p[1]) && predicate(p[2])); };
+    constexpr std::size_t few = 64; // that tell most predicates that do not hold, before all points are looked at
+    const auto first = points.begin(), last = first + std::ptrdiff_t((std::min)(few, points.size()));
+    return std::none_of(first, last, fails) &&
+           count_if(execution, points.size(), [&](std::size_t i) { return fails(points[i]); }) == 0;
+  };
+  const double largest = reduce(execution, points.size(), 0.0, [&](std::size_t i) {
+    return points[i].template lpNorm<Eigen::Infinity>();
+  }, [](double a, double b) { return (std::max)(a, b); });
+  constexpr double diagonal_of_cube = 1.7320508075688772;
+  const auto moved_by = [&](double relative) { return diagonal_of_cube * relative * largest; };
+  const auto are_decimals = [&](int digits) { return all([=](double x) { return is_decimal(x, digits); }); };
+  if (are_decimals(6)) return moved_by(5e-6);
+  if (all([](double x) { return double(float(x)) == x; })) return moved_by(std::numeric_limits<float>::epsilon() / 2);
+  for (const int digits : {9, 12, 14})
+    if (are_decimals(digits)) return moved_by(5 * std::pow(10.0, -digits));
+  return moved_by(4 * std::numeric_limits<double>::epsilon()); // after a rotation or the like
+}
+
+/// Finds facets: triangles are taken in the order of their areas, each with all that can be reached from it in its
+/// plane. Larger triangles know their planes better; slivers follow them, whatever their own normals say.
+///
+/// Work O(n log n), sequential but for the test whether there are facets at all.
+class Facet_search
+{
+public:
+  Facet_search(const Mesh_view& mesh, const std::vector<Vector_3>& points) : mesh_(mesh), points_(points) {}
+
+  template <class Execution>
+  Facets run(const Execution& execution)
+  {
+    facets_.rounding = coordinate_rounding(execution, points_);
+    const std::size_t in_facets = count_if(execution, mesh_.number_of_faces(), [&](std::size_t f) {
+      return has_coplanar_neighbor(Index(f));
+    });
+    if (double(in_facets) < least_share * double(mesh_.number_of_faces())) return std::move(facets_);
+    facets_.of_face.assign(mesh_.number_of_faces(), no_index);
+    for (const Index f : faces_by_area(execution))
+      if (facets_.of_face[f] == no_index) grow(f);
+    find_inner_vertices();
+    if (facets_.are_meshed && mean_quality(execution) > least_quality_of_meshers)
+      return {facets_.rounding, {}, {}, false};
+    return std::move(facets_);
+  }
+
+private:
+  static constexpr double least_share = 0.4; // of faces with a coplanar neighbour: scans and the like have far fewer
+
+  static constexpr double largest_share_inside = 0.3; // of vertices; CAD systems put next to none there
+
+  static constexpr double least_quality_of_meshers = 0.6; // of their triangles; facets cut into more of these have .3
+
+  /// Of the triangles: 1 if they are equilateral.
+  template <class Execution>
+  double mean_quality(const Execution& execution) const
+  {
+    return reduce(execution, mesh_.number_of_faces(), 0.0, [&](std::size_t f) {
+      const Isotropic_metric m{1};
+      const Vector_3& a = points_[mesh_.corner[3 * f]];
+      return face_quality(m, m, m, points_[mesh_.corner[3 * f + 1]] - a, points_[mesh_.corner[3 * f + 2]] - a);
+    }, std::plus<double>()) / double(mesh_.number_of_faces());
+  }
+
+  /// A plane that is known no better than a triangle says.
+  struct Plane
+  {
+    Vector_3 point, normal;
+    double height; ///< the least one of the triangle, 0 for degenerate ones
+  };
+
+  Plane plane(Index f) const
+  {
+    const Index h = 3 * f;
+    const Vector_3 &a = points_[mesh_.corner[h]], &b = points_[mesh_.corner[h + 1]], &c = points_[mesh_.corner[h + 2]];
+    const Vector_3 n = (b - a).cross(c - a);
+    const double twice_area = n.norm(),
+                 longest = std::sqrt((std::max)({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
+    if (!(twice_area > 0)) return {a, Vector_3::Zero(), 0};
+    return {(a + b + c) / 3, n / twice_area, twice_area / longest};
+  }
+
+  /// Whether rounding explains the distance of `p` from `plane`: what it does to the corners of the triangle grows with
+  /// the distance from that.
+  bool is_on(const Plane& plane, const Vector_3& p) const
+  {
+    const Vector_3 d = p - plane.point;
+    return std::abs(d.dot(plane.normal)) <= 2 * facets_.rounding * (1 + d.norm() / plane.height);
+  }
+
+  /// Whether a plane is known well enough to say which points are on it: its normal to .01.
+  bool is_known(const Plane& plane) const { return plane.height > 100 * facets_.rounding; }
+
+  bool has_coplanar_neighbor(Index f) const
+  {
+    const Plane p = plane(f);
+    if (!is_known(p)) return false;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      if (!mesh_.is_border(h) && continues(p, mesh_.twin[h])) return true;
+    return false;
+  }
+
+  /// Whether the face of `h` lies in `plane`, as its edge `h` does, and is not turned over.
+  bool continues(const Plane& plane, Index h) const
+  {
+    if (!is_on(plane, points_[mesh_.apex(h)])) return false;
+    const Vector_3 n = face_normal(mesh_, points_, h);
+    return n.dot(plane.normal) >= 0 || n.norm() <= 4 * facets_.rounding * squared_length(h);
+  }
+
+  double squared_length(Index h) const { return (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm(); }
+
+  template <class Execution>
+  std::vector<Index> faces_by_area(const Execution& execution) const
+  {
+    std::vector<double> area(mesh_.number_of_faces());
+    for_each_index(execution, area.size(), [&](std::size_t f) {
+      area[f] = face_normal(mesh_, points_, Index(3 * f)).squaredNorm();
+    });
+    std::vector<Index> faces(area.size());
+    std::iota(faces.begin(), faces.end(), Index(0));
+    std::stable_sort(faces.begin(), faces.end(), [&](Index a, Index b) { return area[a] > area[b]; });
+    return faces;
+  }
+
+  /// Makes a facet of what can be reached from `seed` in its plane.
+  void grow(Index seed)
+  {
+    const Plane p = plane(seed);
+    const Index id = Index(facets_.facets.size());
+    Facet facet;
+    Vector_3 twice_area = Vector_3::Zero();
+    std::vector<Index> pending{seed};
+    facets_.of_face[seed] = id;
+    while (!pending.empty()) {
+      const Index f = pending.back();
+      pending.pop_back();
+      twice_area += face_normal(mesh_, points_, 3 * f);
+      ++facet.faces;
+      for (Index h = 3 * f; is_known(p) && h < 3 * f + 3; ++h) {
+        const Index t = mesh_.twin[h];
+        if (t == no_index || facets_.of_face[Mesh_view::face(t)] != no_index || !continues(p, t)) continue;
+        facets_.of_face[Mesh_view::face(t)] = id;
+        pending.push_back(Mesh_view::face(t));
+      }
+    }
+    facet.area = twice_area.norm() / 2;
+    facet.normal = facet.area > 0 ? Vector_3(twice_area / (2 * facet.area)) : p.normal;
+    facets_.facets.push_back(facet);
+  }
+
+  /// Vertices inside of the sides of two facets count half: the neighbours of these may have put them there.
+  void find_inner_vertices()
+  {
+    double inside = 0;
+    for (std::size_t v = 0; v < mesh_.number_of_vertices(); ++v) {
+      if (mesh_.is_border_vertex(Index(v))) continue;
+      const int n = number_of_facets_at(Index(v));
+      if (n == 1) facets_.facets[facets_.of_face[Mesh_view::face(mesh_.outgoing[v])]].has_inner_vertices = true;
+      inside += n == 1 ? 1 : n == 2 ? 0.5 : 0;
+    }
+    facets_.are_meshed = inside > largest_share_inside * double(mesh_.number_of_vertices());
+  }
+
+  /// The number of facets around `v`; those that come back count again.
+  int number_of_facets_at(Index v) const
+  {
+    int n = 0;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      const Index t = mesh_.twin[h];
+      if (t == no_index || !facets_.are_one(Mesh_view::face(h), Mesh_view::face(t))) ++n;
+    });
+    return (std::max)(n, 1);
+  }
+
+  const Mesh_view& mesh_;
+  const std::vector<Vector_3>& points_;
+  Facets facets_;
+};
+
+inline double angle_between(const Vector_3& a, const Vector_3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+/// Tells planes of the shape from facets of what is curved, by how much the surface bends at a facet: the sum of the
+/// angles times the lengths of its smooth borders over its area, about twice the curvature. Facets of something curved
+/// are like their neighbours in this, and form rows or nets of three and more. A plane is far flatter than what joins
+/// it smoothly, or has planes only beside it that are still flatter, as a chamfer has. Nobody but a mesher puts a
+/// vertex inside of a facet of something curved: it would lie beside it.
+class Plane_search
+{
+public:
+  /// Takes the edges whose halfedge satisfies `is_smooth`.
+  template <class Smooth>
+  Plane_search(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Smooth& is_smooth, Facets& facets)
+    : facets_(facets.facets), bend_(facets_.size(), 0), row_(facets_.size()), length_of_row_(facets_.size(), 0)
+    , are_meshed_(facets.are_meshed)
+  {
+    std::iota(row_.begin(), row_.end(), Index(0));
+    if (!facets.are_meshed)
+      for (Facet& f : facets_) f.is_plane = f.has_inner_vertices;
+    for (std::size_t i = 0; i < mesh.number_of_halfedges(); ++i) {
+      const Index h = Index(i);
+      if (mesh.is_border(h) || !mesh.is_edge_owner(h) || !is_smooth(h)) continue;
+      const Index f = facets.of_face[Mesh_view::face(h)], g = facets.of_face[Mesh_view::face(mesh.twin[h])];
+      if (f == g) continue;
+      borders_.push_back({f, g, (points[mesh.target(h)] - points[mesh.source(h)]).norm(),
+                          angle_between(facets_[f].normal, facets_[g].normal)});
+    }
+  }
+
+  void run()
+  {
+    measure_bends();
+    join_rows();
+    mark_planes();
+    if (are_meshed_) unmark_bent_planes();
+  }
+
+private:
+  static constexpr double largest_ratio = 3; // of the bends of facets of one thing: it is 5 from fillets to planes of
+                                             // three times their width, and 2 along splines
+  static constexpr Index shortest_row = 3;   // two facets may as well be a roof
+
+  struct Border
+  {
+    Index f, g; // facets
+    double length, turn;
+  };
+
+  void measure_bends()
+  {
+    for (const Border& b : borders_)
+      for (const Index f : {b.f, b.g}) bend_[f] += b.turn * b.length;
+    for (std::size_t f = 0; f < bend_.size(); ++f)
+      bend_[f] = facets_[f].area > 0 ? bend_[f] / facets_[f].area : std::numeric_limits<double>::infinity();
+  }
+
+  bool are_like(const Border& b) const
+  {
+    if (facets_[b.f].is_plane || facets_[b.g].is_plane) return false;
+    return are_alike(bend_[b.f], bend_[b.g], largest_ratio);
+  }
+
+  void join_rows()
+  {
+    std::vector<double> length(facets_.size(), 0);
+    for (const Border& b : borders_) {
+      if (!are_like(b)) continue;
+      row_[(std::max)(row(b.f), row(b.g))] = (std::min)(row(b.f), row(b.g));
+      for (const Index f : {b.f, b.g}) {
+        facets_[f].turn += b.turn * b.length;
+        length[f] += b.length;
+      }
+    }
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      ++length_of_row_[row(Index(f))];
+      if (length[f] > 0) facets_[f].turn /= length[f];
+    }
+  }
+
+  /// The facet that stands for the row of `f`.
+  Index row(Index f)
+  {
+    while (row_[f] != f) f = row_[f] = row_[row_[f]];
+    return f;
+  }
+
+  /// From the flattest on: what a facet has to be compared with is known when its turn comes.
+  void mark_planes()
+  {
+    const auto flatter = [&](const Border& b) { return (std::min)(bend_[b.f], bend_[b.g]); };
+    std::stable_sort(borders_.begin(), borders_.end(), [&](const Border& a, const Border& b) {
+      return flatter(a) < flatter(b);
+    });
+    std::vector<std::uint8_t> is_open(facets_.size());
+    for (std::size_t f = 0; f < facets_.size(); ++f) {
+      is_open[f] = !facets_[f].is_plane && facets_[f].faces > 1 && length_of_row_[row(Index(f))] < shortest_row;
+      if (is_open[f]) facets_[f].is_plane = true;
+    }
+    for (const Border& b : borders_) {
+      const bool is_f_open = is_open[b.f], is_g_open = is_open[b.g];
+      if (is_f_open && !is_g_open && is_chance(facets_[b.f], facets_[b.g])) facets_[b.f].is_plane = false;
+      if (is_g_open && !is_f_open && is_chance(facets_[b.g], facets_[b.f])) facets_[b.g].is_plane = false;
+    }
+    for (const Border& b : borders_) {
+      const Index steep = bend_[b.f] < bend_[b.g] ? b.g : b.f, flat = steep == b.f ? b.g : b.f;
+      if (is_open[steep] && row(steep) != row(flat) && !facets_[flat].is_plane) facets_[steep].is_plane = false;
+    }
+  }
+
+  /// Where no edges are marked, a plane that is bent into something else has no normal at its border that fits both.
+  void unmark_bent_planes()
+  {
+    for (const Border& b : borders_)
+      if (b.turn > least_turn_between_planes) facets_[b.f].is_plane = facets_[b.g].is_plane = false;
+  }
+
+  /// Whether `f` may be triangles of a mesh that happen to lie in a plane: `g` beside it is a triangle or a plane that
+  /// is meshed, and `f` is not far larger than its triangles.
+  static bool is_chance(const Facet& f, const Facet& g)
+  {
+    const bool is_meshed = g.faces == 1 || (g.is_plane && g.faces >= fewest_meshed);
+    return is_meshed && f.area < least_size * g.area / g.faces;
+  }
+
+  static constexpr Index fewest_meshed = 16;
+  static constexpr double least_size = 4;
+
+  std::vector<Facet>& facets_;
+  std::vector<Border> borders_;
+  std::vector<double> bend_;
+  std::vector<Index> row_, length_of_row_;
+  bool are_meshed_;
+};
+
+} // namespace internal
+
+/// Finds the facets of a mesh; which of them are planes is left open, but for those with vertices inside.
+template <class Execution>
+Facets find_facets(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points)
+{
+  return internal::Facet_search(mesh, points).run(execution);
+}
+
+/// Decides which of the `facets` are planes of the shape; others join over the edges for which `is_smooth(h)`.
+template <class Smooth>
+void find_planes(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Smooth& is_smooth, Facets& facets)
+{
+  internal::Plane_search(mesh, points, is_smooth, facets).run();
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FACETS_H

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Which edges of a mesh are features: its boundary, what the user constrains, ridges, edges of facets, and borders of
+// planes.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FEATURE_MARKS_H
+#define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FEATURE_MARKS_H
+
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Facet_edges.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/vertex_normals.h>
+
+#include <CGAL/number_type_config.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+/// Open chains of fewer ridges than this are taken for noise of the surface: those that touch nothing else, and those
+/// that branch off others.
+constexpr std::size_t shortest_isolated_ridge = 5, shortest_branch = 3;
+
+/// Faces that are less high than this part of their longest edge are slivers.
+constexpr double sliver_height = 0.125;
+
+/// Cosine of the angle, 150 degrees, by which faces turn where one of them is folded over.
+constexpr double cosine_of_fold = -0.866;
+
+/// Whoever asks for ridges from this angle on, in degrees, wants no edges between planes either.
+constexpr double largest_angle_for_planes = 90;
+
+/// Which edges are features. \pre `mesh`, `points` and `parameters` live as long as this
+class Feature_marks
+{
+public:
+  /// Those that are `kept` are on the boundary or constrained, and never filtered; the normals on both sides of those
+  /// that are `smooth` are one.
+  enum Mark : std::uint8_t { none, ridge, kept, smooth };
+
+  template <class Execution>
+  Feature_marks(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
+                const Feature_parameters& parameters)
+    : mesh_(mesh), points_(points), parameters_(parameters), facets_(find_facets(execution, mesh, points))
+    , cosine_of_ridge_(std::cos(parameters.ridge_angle * CGAL_PI / 180)), is_feature_(mesh.number_of_halfedges(), 0)
+  {
+    mark_feature_edges(execution);
+    if (!facets_.empty()) find_planes(mesh, points, [&](Index h) { return !is_marked(h); }, facets_);
+    if (finds_edges_of_facets()) mark_edges_of_facets(execution);
+    if (parameters.detect_ridges) {
+      unmark_folds(execution);
+      unmark_wrong_diagonals(execution);
+      remove_short_ridges(execution);
+    }
+    if (parameters.smooth_borders && facets_.are_chords()) mark_smooth_borders(execution);
+  }
+
+  /// To be called once, for it moves them.
+  Facets take_facets() { return std::move(facets_); }
+
+  /// Calls `f(w, mark)` for the neighbours `w` of `v` along feature edges.
+  template <class F>
+  void for_each_neighbor(Index v, const F& f) const
+  {
+    Index last = no_index;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      if (is_feature_[h] != none) f(mesh_.target(h), is_feature_[h]);
+      last = Mesh_view::previous(h);
+    });
+    if (mesh_.is_border(last)) f(mesh_.source(last), is_feature_[last]);
+  }
+
+  std::size_t degree(Index v) const
+  {
+    std::size_t n = 0;
+    for_each_neighbor(v, [&](Index, std::uint8_t) { ++n; });
+    return n;
+  }
+
+  template <class Execution>
+  std::vector<Index> vertices_on_features(const Execution& execution) const
+  {
+    return pack(execution, mesh_.number_of_vertices(), [&](std::size_t v) { return degree(Index(v)) > 0; });
+  }
+
+private:
+  Vector_3 normal(Index f) const { return face_normal(mesh_, points_, 3 * f); }
+
+  bool is_ridge(Index h) const
+  {
+    if (facets_.empty()) return is_turned(h, cosine_of_ridge_);
+    const Index f = Mesh_view::face(h), g = Mesh_view::face(mesh_.twin[h]);
+    return !facets_.are_one(f, g) && facets_.at(f).normal.dot(facets_.at(g).normal) < cosine_of_ridge_;
+  }
+
+  bool is_turned(Index h, double cosine) const
+  {
+    return is_turned(normal(Mesh_view::face(h)), normal(Mesh_view::face(mesh_.twin[h])), cosine);
+  }
+
+  static bool is_turned(const Vector_3& a, const Vector_3& b, double cosine)
+  {
+    return a.dot(b) < cosine * std::sqrt(a.squaredNorm() * b.squaredNorm());
+  }
+
+  template <class Execution>
+  void mark_feature_edges(const Execution& execution)
+  {
+    for_each_index(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
+      const Index h = Index(i);
+      if (!mesh_.is_edge_owner(h)) return;
+      const bool constrained = !parameters_.halfedge_is_constrained.empty() &&
+                               parameters_.halfedge_is_constrained[h] != 0;
+      std::uint8_t mark = none;
+      if (mesh_.is_border(h) || constrained) mark = kept;
+      else if (parameters_.detect_ridges && is_ridge(h)) mark = ridge;
+      is_feature_[h] = mark;
+      if (!mesh_.is_border(h)) is_feature_[mesh_.twin[h]] = mark;
+    });
+  }
+
+  bool is_marked(Index h) const { return is_feature_[h] != none; }
+
+  /// Not where a mesher has been at work, to whose small facets any angles happen.
+  bool finds_edges_of_facets() const
+  {
+    return facets_.are_chords() && parameters_.detect_ridges &&
+           parameters_.ridge_angle < largest_angle_for_planes;
+  }
+
+  Facet_edges facet_edges() const { return {mesh_, points_, facets_, is_feature_}; }
+
+  /// Marks where planes end at an angle, and then where else the surface turns once.
+  template <class Execution>
+  void mark_edges_of_facets(const Execution& execution)
+  {
+    mark_all(execution, ridge, [&](Index h) { return facet_edges().ends_plane(h); });
+    mark_all(execution, ridge, [&](Index h) { return facet_edges().is_single_turn(h); });
+  }
+
+  /// Marks the edges without a mark for which `predicate(h)`, which sees none of the new marks.
+  template <class Execution, class Predicate>
+  void mark_all(const Execution& execution, Mark mark, const Predicate& predicate)
+  {
+    const std::vector<Index> found = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
+      return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) && predicate(Index(h));
+    });
+    for (const Index h : found) set_mark(h, mark);
+  }
+
+  /// Borders neither end nor begin within a smooth piece: what does is a few facets that happen to be so.
+  template <class Execution>
+  void mark_smooth_borders(const Execution& execution)
+  {
+    mark_all(execution, smooth, [&](Index h) { return facet_edges().is_smooth_border(h); });
+    for (const Index v : vertices_on_features(execution))
+      for (Index w = v; w != no_index;) w = retracted(w);
+  }
+
+  /// Unmarks the smooth edge that ends at `v`, where no other feature is, and returns its other end, or `no_index` if
+  /// there is none.
+  Index retracted(Index v)
+  {
+    Index other = no_index;
+    std::size_t degree = 0;
+    for_each_neighbor(v, [&](Index w, std::uint8_t mark) {
+      ++degree;
+      other = mark == smooth ? w : no_index;
+    });
+    if (degree != 1 || other == no_index) return no_index;
+    set_mark(mesh_.any_halfedge(v, other), none);
+    return other;
+  }
+
+  /// Folds are noise rather than shapes, and their normals mean nothing: that of the face behind the longest edge, on
+  /// which a sliver lies, takes their place. Boundaries and constrained edges stay what they are.
+  template <class Execution>
+  void unmark_folds(const Execution& execution)
+  {
+    const std::vector<Index> folds = pack(execution, mesh_.number_of_faces(), [&](std::size_t f) {
+      return is_fold(Index(f));
+    });
+    for (const Index f : folds) {
+      const Index longest = longest_edge(f);
+      const Vector_3 n = normal(Mesh_view::face(mesh_.twin[longest]));
+      set_mark(longest, none);
+      for (const Index h : {Mesh_view::next(longest), Mesh_view::previous(longest)})
+        if (is_feature_[h] != kept)
+          set_mark(h, is_turned(n, normal(Mesh_view::face(mesh_.twin[h])), cosine_of_ridge_) ? ridge : none);
+    }
+  }
+
+  /// Whether two of three hold: a face is a sliver; it turns away from all its neighbours; it is turned over at its
+  /// longest edge and another one. One alone may be a shape: slivers fill arcs, and plates have tips.
+  bool is_fold(Index f) const
+  {
+    const Index longest = longest_edge(f), a = Mesh_view::next(longest), b = Mesh_view::previous(longest);
+    if (is_feature_[longest] != ridge) return false;
+    const auto is_over = [&](Index h) { return is_feature_[h] == ridge && is_turned(h, cosine_of_fold); };
+    const bool is_sliver = normal(f).norm() < sliver_height * squared_length(longest);
+    const bool turns_away = is_feature_[a] == ridge && is_feature_[b] == ridge;
+    const bool lies_over = is_over(longest) && (is_over(a) || is_over(b));
+    return int(is_sliver) + int(turns_away) + int(lies_over) >= 2;
+  }
+
+  /// Where long faces cross a bend of the surface, some of their edges are the wrong diagonals, and the bend becomes a
+  /// row of dents.
+  template <class Execution>
+  void unmark_wrong_diagonals(const Execution& execution)
+  {
+    const std::vector<Index> wrong = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
+      return bends_to_and_fro(Index(h)) && is_flatter_across(Index(h));
+    });
+    for (const Index h : wrong) set_mark(h, none);
+  }
+
+  /// Whether `h` is the middle stroke of a Z of three ridges along its two faces, and bends the other way than the
+  /// others.
+  bool bends_to_and_fro(Index h) const
+  {
+    if (!mesh_.is_edge_owner(h) || is_feature_[h] != ridge) return false;
+    const bool is_convex_itself = is_convex(h);
+    const auto bends_back = [&](Index g) { return is_feature_[g] == ridge && is_convex(g) != is_convex_itself; };
+    const Index t = mesh_.twin[h];
+    return (bends_back(Mesh_view::next(h)) && bends_back(Mesh_view::next(t))) ||
+           (bends_back(Mesh_view::previous(h)) && bends_back(Mesh_view::previous(t)));
+  }
+
+  /// Whether the two faces of `h` would turn by less if they met at the other diagonal, and all five edges of the two
+  /// together would, too.
+  bool is_flatter_across(Index h) const
+  {
+    const Index t = mesh_.twin[h];
+    const Vector_3 &a = points_[mesh_.source(h)], &b = points_[mesh_.target(h)];
+    const Vector_3 &c = points_[mesh_.apex(h)], &d = points_[mesh_.apex(t)];
+    const Vector_3 at_a = (d - a).cross(c - a), at_b = (c - b).cross(d - b); // normals on both sides of c d
+    const double now = angle_between(normal(Mesh_view::face(h)), normal(Mesh_view::face(t))), across = angle_between(at_a, at_b);
+    double gain = now - across;
+    const auto compare = [&](Index g, const Vector_3& with) {
+      if (mesh_.is_border(g)) return;
+      const Vector_3 behind = normal(Mesh_view::face(mesh_.twin[g]));
+      gain += angle_between(normal(Mesh_view::face(g)), behind) - angle_between(with, behind);
+    };
+    for (const Index g : {Mesh_view::previous(h), Mesh_view::next(t)}) compare(g, at_a);
+    for (const Index g : {Mesh_view::next(h), Mesh_view::previous(t)}) compare(g, at_b);
+    return across < now && gain > 0;
+  }
+
+  bool is_convex(Index h) const
+  {
+    const Vector_3 to_other_apex = points_[mesh_.apex(mesh_.twin[h])] - points_[mesh_.source(h)];
+    return to_other_apex.dot(normal(Mesh_view::face(h))) < 0;
+  }
+
+  Index longest_edge(Index f) const
+  {
+    const Index h = 3 * f;
+    return (std::max)({h, h + 1, h + 2}, [&](Index a, Index b) { return squared_length(a) < squared_length(b); });
+  }
+
+  double squared_length(Index h) const { return (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm(); }
+
+  /// \pre `h` is not marked as `kept`, and thus not on the boundary
+  void set_mark(Index h, Mark mark) { is_feature_[h] = is_feature_[mesh_.twin[h]] = mark; }
+
+  /// Ridges that form a short chain with an open end: touching nothing else, or still shorter, branching off others.
+  template <class Execution>
+  void remove_short_ridges(const Execution& execution)
+  {
+    for (const Index v : vertices_on_features(execution)) {
+      if (degree(v) != 1) continue;
+      const std::vector<Index> chain = open_chain_from(v);
+      const std::size_t shortest = degree(chain.back()) == 1 ? shortest_isolated_ridge : shortest_branch;
+      if (chain.size() <= shortest) unmark(chain);
+    }
+  }
+
+  /// The vertices of the ridges from the open end `v` on to where they end or branch, or turn into other features; no
+  /// more of them than are of interest.
+  std::vector<Index> open_chain_from(Index v) const
+  {
+    std::vector<Index> chain{v};
+    Index previous = no_index;
+    do {
+      Index next = no_index;
+      std::uint8_t mark_of_next = none;
+      for_each_neighbor(chain.back(), [&](Index w, std::uint8_t mark) {
+        if (w == previous) return;
+        next = w;
+        mark_of_next = mark;
+      });
+      if (mark_of_next != ridge) break;
+      previous = chain.back();
+      chain.push_back(next);
+    } while (degree(chain.back()) == 2 && chain.size() <= shortest_isolated_ridge);
+    return chain;
+  }
+
+  void unmark(const std::vector<Index>& chain)
+  {
+    for (std::size_t i = 1; i < chain.size(); ++i) set_mark(mesh_.halfedge(chain[i - 1], chain[i]), none);
+  }
+
+  const Mesh_view& mesh_;
+  const std::vector<Vector_3>& points_;
+  const Feature_parameters& parameters_;
+  Facets facets_;
+  double cosine_of_ridge_;
+  std::vector<std::uint8_t> is_feature_;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FEATURE_MARKS_H

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What the features of a mesh are: curves along ridges, boundaries and constrained edges, and corners.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FEATURES_H
+#define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FEATURES_H
+
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// How a vertex may move: on the surface, along its feature curve, or not at all.
+enum class Vertex_class : std::uint8_t { smooth, curve, corner };
+
+/// A chain of feature edges from corner to corner, or closed without a corner (first and last vertex equal).
+struct Feature_curve
+{
+  std::vector<Index> vertices;
+  std::vector<double> arc_length;  ///< of each vertex from the first, along the chords
+  std::vector<Vector_3> tangents;  ///< unit, in the direction of the chain
+  std::vector<std::array<Vector_3, 2>> ends; ///< tangents at the ends of each edge: as above, or the direction of the
+                                             ///< edge where the curve stays on it
+  bool closed = false;             ///< whether the chain is a cycle that no corner interrupts
+
+  bool is_closed() const { return closed; }
+  double length() const { return arc_length.back(); }
+
+  /// The edge of the chain that contains arc length `s`.
+  std::size_t segment(double s) const
+  {
+    const auto after = std::upper_bound(arc_length.begin() + 1, arc_length.end() - 1, s);
+    return std::size_t(after - arc_length.begin()) - 1;
+  }
+
+  /// Position of arc length `s` in segment `i`, in [0, 1].
+  double parameter(std::size_t i, double s) const
+  {
+    const double length_of_segment = arc_length[i + 1] - arc_length[i];
+    return length_of_segment > 0 ? (std::min)(1.0, (std::max)(0.0, (s - arc_length[i]) / length_of_segment)) : 0;
+  }
+};
+
+/// The place of a curve vertex on its curve.
+struct Curve_node
+{
+  Index curve = no_curve;
+  Index index = 0;
+};
+
+/// What the user asks for and constrains; flags are per element of the mesh view, empty for "none".
+struct Feature_parameters
+{
+  bool detect_ridges = true;
+  double ridge_angle = 45;    ///< degrees: an edge is a ridge if the normals of its faces differ by more
+  double corner_angle = 60;   ///< degrees: a curve that turns by more at a vertex has a corner there
+  bool smooth_borders = false; ///< whether planes keep their outlines where something curved joins them smoothly
+  std::vector<std::uint8_t> halfedge_is_constrained;
+  std::vector<std::uint8_t> vertex_is_constrained;
+};
+
+struct Features
+{
+  std::vector<Vertex_class> vertex_class;
+  std::vector<Curve_node> node_of_vertex;  ///< of curve vertices; of a closed chain's first vertex, index 0
+  std::vector<Feature_curve> curves;
+  Facets facets;
+
+  /// Unit tangent, in the direction of the chain, of `curve` at the vertex `v` of its edge between `v` and `w`.
+  const Vector_3& tangent(Index curve, Index v, Index w) const
+  {
+    const Feature_curve& c = curves[curve];
+    const std::size_t i = vertex_class[v] == Vertex_class::curve ? node_of_vertex[v].index : 0;
+    if (c.vertices[i] == v && c.vertices[i + 1] == w) return c.ends[i][0];
+    return vertex_class[v] == Vertex_class::curve && i > 0 ? c.ends[i - 1][1] : c.ends.back()[1];
+  }
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_SURFACE_FEATURES_H

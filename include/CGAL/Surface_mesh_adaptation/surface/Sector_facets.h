@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The facets around a vertex of a tessellation, and what they say of the normal there.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_SECTOR_FACETS_H
+#define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_SECTOR_FACETS_H
+
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+/// The corners that the facets of a smooth sector have at its vertex: each facet counts once, with whole sides, however
+/// it is cut into triangles.
+class Sector_facets
+{
+public:
+  /// In the sector of the `n` faces from that of `first` on. \pre `facets` is not empty
+  Sector_facets(const Facets& facets, const Mesh_view& mesh, const std::vector<Vector_3>& points, Index first,
+                std::size_t n)
+    : facets_(facets)
+  {
+    const bool is_closed = !mesh.is_crease(first) && !mesh.is_border(first);
+    if (is_closed) first = start_of_facet(mesh, first, n);
+    for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h)) {
+      const Index face = Mesh_view::face(h);
+      if (corners_.empty() || corners_.back().facet != facets.of_face[face])
+        corners_.push_back({facets.of_face[face], h, h, Vector_3::Zero(), Vector_3::Zero()});
+      corners_.back().last = h;
+    }
+    is_closed_ = is_closed;
+    if (is_closed && corners_.size() == 1) return; // inside of a facet
+    for (Corner& c : corners_) {
+      c.right = facets.side(mesh, points, c.first);
+      c.left = side_to(mesh, points, Mesh_view::previous(c.last));
+      const double next2 = (points[mesh.target(c.first)] - points[mesh.source(c.first)]).squaredNorm();
+      has_split_side_ = has_split_side_ || c.right.squaredNorm() > next2;
+    }
+    is_in_one_row_ = !is_closed && ends_on_creases(mesh);
+  }
+
+  /// The largest plane of the shape among them, or null.
+  const Facet* plane() const
+  {
+    const Facet* largest = nullptr;
+    for (const Corner& c : corners_) {
+      const Facet& f = facet(c);
+      if (f.is_plane && (!largest || f.area > largest->area)) largest = &f;
+    }
+    return largest;
+  }
+
+  /// Whether one of them has more than one triangle: if not, there is nothing that triangles do not say.
+  bool has_polygon() const
+  {
+    for (const Corner& c : corners_)
+      if (facet(c).faces > 1) return true;
+    return false;
+  }
+
+  /// Whether they are of one net that goes on around the vertex, so that a fit over it means something: about as large
+  /// as each other, and with sides about as long where the vertex is inside. Where rulings of a cylinder end in a
+  /// fillet, say, the curvature jumps. At the margin of a net, only a fit knows how it bends across that; a row alone
+  /// does not.
+  bool are_of_one_net() const
+  {
+    const Corner& first = corners_.front();
+    if (is_in_one_row_ || has_split_side_) return false; // the latter by a vertex on a chord, not on the surface
+    for (const Corner& c : corners_) {
+      if (!are_alike(facet(c).area, facet(first).area, largest_ratio_in_nets) || !(sine(c) > least_sine)) return false;
+      for (const Vector_3* s : {&c.right, &c.left})
+        if (is_closed_ && !are_alike(s->norm(), first.right.norm(), largest_ratio_in_nets)) return false;
+    }
+    return true;
+  }
+
+  /// The mean of their normals with the weights of Max for whole facets, made orthogonal to sides that are too long to
+  /// be chords of what goes on behind the vertex; zero if they say nothing.
+  Vector_3 normal() const
+  {
+    Vector_3 n = weighted_normal();
+    for (const Corner& c : corners_) {
+      const Vector_3& d = c.right;
+      if ((&c == &corners_.front() && !is_closed_) || !is_straight(d)) continue;
+      n -= n.dot(d) / d.squaredNorm() * d;
+    }
+    return n.squaredNorm() > 0 ? Vector_3(n.normalized()) : n;
+  }
+
+private:
+  static constexpr double longest_chord = 3; // times that of the other side of a vertex, as of facets of one thing
+
+  struct Corner
+  {
+    Index facet, first, last; // halfedges that leave the vertex in its first and last face
+    Vector_3 right, left; // sides from the vertex on
+  };
+
+  const Facet& facet(const Corner& c) const { return facets_.facets[c.facet]; }
+
+  /// The halfedge among the `n` that leave a vertex, from `first` on, behind which another facet begins.
+  Index start_of_facet(const Mesh_view& mesh, Index first, std::size_t n) const
+  {
+    Index h = first;
+    for (std::size_t i = 0; i < n; ++i, h = mesh.rotated_ccw(h))
+      if (!facets_.are_one(Mesh_view::face(h), Mesh_view::face(mesh.twin[h]))) return h;
+    return first;
+  }
+
+  /// Whether all sides between the facets of an open sector end on creases again.
+  bool ends_on_creases(const Mesh_view& mesh) const
+  {
+    const auto ends = [&](const Corner& c) {
+      bool is_on_crease = false;
+      mesh.for_each_outgoing(mesh.target(c.first), [&](Index h) { is_on_crease |= mesh.is_crease(h); });
+      return is_on_crease;
+    };
+    return corners_.size() > 1 && std::all_of(corners_.begin() + 1, corners_.end(), ends);
+  }
+
+  /// From the target of the border halfedge `h` back to where the border ceases to be straight.
+  Vector_3 side_to(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index h) const
+  {
+    if (!mesh.is_border(h)) return facets_.side(mesh, points, mesh.twin[h]);
+    return points[mesh.source(h)] - points[mesh.target(h)];
+  }
+
+  Vector_3 weighted_normal() const
+  {
+    Vector_3 by_corners = Vector_3::Zero(), by_areas = Vector_3::Zero();
+    double largest_sine = 0;
+    for (const Corner& c : corners_) {
+      const double s = sine(c);
+      if (s > 0) by_corners += s / std::sqrt(c.right.squaredNorm() * c.left.squaredNorm()) * facet(c).normal;
+      if (facet(c).area > 0) by_areas += facet(c).normal / facet(c).area;
+      largest_sine = (std::max)(largest_sine, s);
+    }
+    return largest_sine > least_sine ? by_corners : by_areas; // the latter inside of a side
+  }
+
+  static constexpr double least_sine = 0.01; // of a corner; less: the vertex lies inside of a side
+
+  /// Of the angle at the corner `c`; negative where it is reflex.
+  double sine(const Corner& c) const
+  {
+    return c.right.cross(c.left).dot(facet(c).normal) / std::sqrt(c.right.squaredNorm() * c.left.squaredNorm());
+  }
+
+  /// Whether the side `d` is a straight line of the shape: far longer than the one that goes on across the vertex.
+  bool is_straight(const Vector_3& d) const
+  {
+    const Vector_3* opposite = nullptr;
+    double least_cosine = -0.7; // 45 degrees from straight on
+    for (const Corner& c : corners_)
+      for (const Vector_3* s : {&c.right, &c.left}) {
+        const double cosine = s->dot(d) / std::sqrt(s->squaredNorm() * d.squaredNorm());
+        if (!(cosine < least_cosine)) continue;
+        least_cosine = cosine;
+        opposite = s;
+      }
+    return opposite && d.squaredNorm() > longest_chord * longest_chord * opposite->squaredNorm();
+  }
+
+  const Facets& facets_;
+  Ring<Corner> corners_;
+  bool is_closed_ = false, has_split_side_ = false, is_in_one_row_ = false;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_SURFACE_SECTOR_FACETS_H

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The tolerance of sizes from the curvature: bounds of sizes around places, distances of faces, and what comes of them.
+
+#include "analytic_surfaces.h"
+#include "distances.h"
+#include "policies.h"
+#include "shapes.h"
+
+#include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
+#include <CGAL/Surface_mesh_adaptation/distance/Face_deviations.h>
+#include <CGAL/Surface_mesh_adaptation/fields/Graded_bounds.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace SMA = CGAL::Surface_mesh_adaptation;
+namespace params = SMA::parameters;
+using analytic::Ellipsoid;
+using analytic::Graph;
+using analytic::Sphere;
+using analytic::Torus;
+using distances::Mesh;
+using shapes::Random;
+using shapes::Soup;
+using shapes::Vector_3;
+using Bounds = SMA::Graded_bounds;
+using Reference = SMA::Reference_surface<SMA::Flat_reconstruction>;
+using Surface = SMA::Adapted_surface<SMA::Isotropic_metric, SMA::Flat_reconstruction>;
+
+const SMA::Sequential_execution sequential;
+
+// Bounds
+
+std::vector<Bounds::Source> random_sources(std::size_t n)
+{
+  Random random(5);
+  std::vector<Bounds::Source> sources;
+  for (std::size_t i = 0; i < n; ++i) sources.push_back({random.vector(), random.real(0.1, 2), random.real(0.2, 0.6)});
+  return sources;
+}
+
+double least_of_all(const std::vector<Bounds::Source>& sources, const Vector_3& p, double limit)
+{
+  for (const Bounds::Source& s : sources) limit = (std::min)(limit, s.value + s.slope * (s.point - p).norm());
+  return limit;
+}
+
+TEST(Graded_bounds, are_the_least_of_all_sources)
+{
+  for (const std::size_t n : {0, 1, 4, 5, 9, 300}) {
+    const std::vector<Bounds::Source> sources = random_sources(n);
+    const Bounds bounds(sequential, sources);
+    Random random(6);
+    for (int i = 0; i < 200; ++i) {
+      const Vector_3 p = 1.5 * random.vector();
+      for (const double limit : {0.05, 0.3, 1.0, 10.0})
+        EXPECT_DOUBLE_EQ(bounds.least(p, limit), least_of_all(sources, p, limit)) << n;
+    }
+  }
+}
+
+TEST(Graded_bounds, forget_sources_that_others_bound)
+{
+  const Bounds bounds(sequential, {{Vector_3(0, 0, 0), 1, 0.5}, {Vector_3(1, 0, 0), 1.6, 0.5}, {Vector_3(2, 0, 0), 1.9, 0.5}});
+  ASSERT_EQ(bounds.sources().size(), 2u); // at (1, 0, 0) the first one asks for 1.5
+  EXPECT_EQ(bounds.least(Vector_3(2, 0, 0), 10), 1.9);
+  EXPECT_TRUE(Bounds().empty());
+}
+
+// Distances of faces
+
+/// A mesh on the triangles of `soup`, as it is before anything is done to it.
+struct On_triangles
+{
+  explicit On_triangles(const Soup& soup)
+    : reference(sequential, shapes::view(soup), soup.points, SMA::Feature_parameters()), background(1.0)
+    , surface(sequential, reference, background)
+  {}
+
+  Reference reference;
+  SMA::Metric_background<SMA::Isotropic_metric> background;
+  Surface surface;
+};
+
+TEST(Face_deviations, see_faces_above_the_surface_and_vertices_of_the_input_below)
+{
+  On_triangles flat(shapes::square(6));
+  Surface& surface = flat.surface;
+  SMA::Face_deviations<Surface> deviations(surface, 0.01);
+  deviations.update(sequential);
+  EXPECT_LT(deviations.largest(sequential), 1e-12);
+  const SMA::Index v = 24; // inside
+  ASSERT_EQ(surface.vertex_class(v), SMA::Vertex_class::smooth);
+  surface.points[v][2] += 0.05;
+  deviations.update(sequential);
+  EXPECT_GT(deviations.largest(sequential), 0.02);
+  for (const SMA::Index f : surface.faces_around(v)) EXPECT_GT(deviations[f], 0.01) << f;
+  EXPECT_GT(deviations.nth_largest(0), deviations.nth_largest(surface.mesh.number_of_faces() - 1));
+  EXPECT_EQ(deviations.nth_largest(surface.mesh.number_of_faces()), 0);
+}
+
+TEST(Face_deviations, of_what_changed_are_those_of_all)
+{
+  On_triangles sphere(shapes::sphere(3, 0.3));
+  Surface& surface = sphere.surface;
+  SMA::Face_deviations<Surface> twice(surface, 0.01);
+  twice.update(sequential);
+  Random random(8);
+  for (SMA::Index v = 0; v < surface.points.size(); v += 9) surface.points[v] *= random.real(0.9, 1.1);
+  twice.update(sequential);
+  SMA::Face_deviations<Surface> once(surface, 0.01);
+  once.update(sequential);
+  for (SMA::Index f = 0; f < surface.mesh.number_of_faces(); ++f) EXPECT_GE(twice[f], once[f] - 1e-9) << f;
+  EXPECT_NEAR(twice.largest(sequential), once.largest(sequential), 1e-9);
+}
+
+// The tolerance
+
+/// What the field alone makes of the mesh: an intersection of one has the same sizes, and no tolerance.
+SMA::Intersection_metric_field<SMA::Curvature_metric_field> without_tolerance(const SMA::Curvature_metric_field& field)
+{
+  SMA::Intersection_metric_field<SMA::Curvature_metric_field> result(field);
+  result.gradation = SMA::default_gradation_of_isotropic_curvature;
+  return result;
+}
+
+double diagonal(const Mesh& mesh)
+{
+  return distances::Original(mesh).diagonal();
+}
+
+/// The largest distance of 200 000 points of the faces from the surface.
+template <class Analytic>
+double largest_distance(const Mesh& mesh, const Analytic& surface)
+{
+  double largest = 0;
+  distances::for_each_sample(mesh, 200000, [&](const auto& q, double) {
+    const Vector_3 p(q.x(), q.y(), q.z());
+    largest = (std::max)(largest, (p - surface.closest_point(p)).norm());
+  });
+  return largest;
+}
+
+/// That few vertices more keep the faces within the tolerance of the surface that a fine mesh is of.
+template <class Analytic>
+void expect_tolerance(const Analytic& surface, int level, double tolerance, const std::string& name)
+{
+  const Mesh input = shapes::mesh<Mesh>(surface.coarse_mesh(level));
+  const double asked = tolerance * diagonal(input);
+  const SMA::Curvature_metric_field field(tolerance);
+  Mesh mesh = input, before = input;
+  const SMA::Adaptation_report report = SMA::adapt_surface_mesh(sequential, mesh, field);
+  EXPECT_EQ(SMA::adapt_surface_mesh(sequential, before, without_tolerance(field)).deviation, 0);
+  const double distance = largest_distance(mesh, surface), distance_before = largest_distance(before, surface);
+  EXPECT_LE(distance, 1.3 * asked) << name;
+  EXPECT_LE(distance, 1.001 * distance_before) << name;
+  EXPECT_LE(report.deviation, 1.3 * asked) << name;
+  EXPECT_TRUE(report.warnings.empty()) << name << ": " << report.warnings[0];
+  EXPECT_LE(double(mesh.number_of_vertices()), 1.35 * double(before.number_of_vertices())) << name;
+  EXPECT_GT(report.final.in_range, 0.95) << name;
+}
+
+TEST(Tolerance_of_curvature, holds_on_analytic_surfaces)
+{
+  for (const double tolerance : {0.005, 0.001}) {
+    expect_tolerance(Sphere(), 4, tolerance, "sphere");
+    expect_tolerance(Ellipsoid(), 4, tolerance, "ellipsoid");
+    expect_tolerance(Torus(), 3, tolerance, "torus");
+    expect_tolerance(Graph(), 4, tolerance, "graph");
+  }
+}
+
+TEST(Tolerance_of_curvature, holds_on_triangles)
+{
+  for (const Soup& soup : {Sphere().coarse_mesh(4), Torus().coarse_mesh(4), Graph().coarse_mesh(5)}) {
+    const Mesh input = shapes::mesh<Mesh>(soup);
+    const distances::Original original(input);
+    const SMA::Curvature_metric_field field(0.004);
+    Mesh mesh = input, before = input;
+    const auto flat = params::surface_reconstruction(SMA::Flat_reconstruction());
+    SMA::adapt_surface_mesh(sequential, mesh, field, flat);
+    SMA::adapt_surface_mesh(sequential, before, without_tolerance(field), flat);
+    EXPECT_LE(original.distance_to(mesh, 200000).largest, 1.3 * 0.004 * original.diagonal());
+    EXPECT_LE(double(mesh.number_of_vertices()), 1.35 * double(before.number_of_vertices()));
+  }
+}
+
+TEST(Tolerance_of_curvature, is_nearer_in_an_anisotropic_metric_too)
+{
+  const Torus torus;
+  const Mesh input = shapes::mesh<Mesh>(torus.coarse_mesh(3));
+  SMA::Curvature_metric_field field(0.002);
+  field.anisotropic = true;
+  SMA::Intersection_metric_field<SMA::Curvature_metric_field> sizes(field);
+  Mesh mesh = input, before = input;
+  SMA::adapt_surface_mesh(sequential, mesh, field);
+  SMA::adapt_surface_mesh(sequential, before, sizes);
+  EXPECT_LT(largest_distance(mesh, torus), 0.9 * largest_distance(before, torus));
+  EXPECT_LE(double(mesh.number_of_vertices()), 1.4 * double(before.number_of_vertices()));
+}
+
+TEST(Tolerance_of_curvature, gives_the_same_bits_with_every_policy)
+{
+  const auto adapted = [](const auto& execution) {
+    Mesh mesh = shapes::mesh<Mesh>(Torus().coarse_mesh(3));
+    SMA::adapt_surface_mesh(execution, mesh, SMA::Curvature_metric_field(0.002));
+    return shapes::soup(mesh);
+  };
+  const Soup expected = adapted(sequential);
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    const Soup soup = adapted(execution);
+    EXPECT_EQ(soup.points, expected.points) << name;
+    EXPECT_EQ(soup.triangles, expected.triangles) << name;
+  });
+}
+
+TEST(Tolerance_of_curvature, is_said_to_be_missed_where_faces_cross_edges_that_are_no_features)
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::icosahedron());
+  const auto report = SMA::adapt_surface_mesh(sequential, mesh, SMA::Curvature_metric_field(0.001),
+                                              params::surface_reconstruction(SMA::Flat_reconstruction()));
+  EXPECT_GT(report.deviation, 1.3 * 0.001 * diagonal(shapes::mesh<Mesh>(shapes::icosahedron())));
+  ASSERT_FALSE(report.warnings.empty());
+  EXPECT_NE(report.warnings[0].find("times the tolerance of the sizes"), std::string::npos) << report.warnings[0];
+}
+
+} // namespace
