@@ -8,7 +8,7 @@
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
 #include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
-#include <CGAL/Surface_mesh_adaptation/driver/attribute_transfer.h>
+#include <CGAL/Surface_mesh_adaptation/driver/Attribute_interpolator.h>
 #include <CGAL/Surface_mesh_adaptation/estimate_vertex_jets.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/minimize_worst.h>
 #include <CGAL/Surface_mesh_adaptation/refine.h>

@@ -65,8 +65,8 @@ void warn_of_bulges(const Any_execution& execution, const Curvature_metric_field
 }
 
 /// `adapt_surface_mesh` with a policy that is known at run time only: compiled once for all policies.
-template <class TriangleMesh, class MetricField, class NamedParameters>
-Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, const MetricField& field,
+template <class Domain, class MetricField, class NamedParameters>
+Adaptation_report adapt(const Any_execution& execution, const Domain& domain, const MetricField& field,
                         const NamedParameters& np)
 {
   const std::size_t rounds = choose(np, CGAL::internal_np::number_of_iterations, default_number_of_rounds);
@@ -75,7 +75,7 @@ Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, cons
   auto visitor_parameter = choose(np, CGAL::internal_np::visitor, std::ref(nothing));
   auto& visitor = unwrap(visitor_parameter);
   const auto interruptible = execution.interruptible([&] { return visitor.go_on(); });
-  Adaptation_report report = adapt_in_place(interruptible, mesh, field, np, [&](const auto& policy, auto& surface) {
+  Adaptation_report report = adapt_in_place(interruptible, domain, field, np, [&](const auto& policy, auto& surface) {
     Adaptation_report result =
       Adaptation_driver(policy, surface, visitor)
         .run(rounds, choose(np, internal_np::fit_to_surface, std::false_type()), shape_weight);
@@ -83,6 +83,15 @@ Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, cons
     return result;
   });
   warn_of_missed_number(field, report);
+  return report;
+}
+
+template <class Execution, class Domain, class MetricField, class NamedParameters>
+Adaptation_report adapt_domain(const Execution& execution, const Domain& domain, const MetricField& field,
+                               const NamedParameters& np)
+{
+  Adaptation_report report = adapt(Any_execution(execution), domain, field, np);
+  report.execution = Execution::name;
   return report;
 }
 
@@ -97,8 +106,9 @@ step at the end: if anything throws, it is as it was.
 
 \param execution how to run; see `execution.h`. The overload without it takes a `ConcurrencyTag` or a policy type.
 \param mesh a model of `MutableFaceGraph` with triangles as faces: an orientable 2-manifold, closed or with boundary, of
-       any number of components. Its elements are renumbered; of its property maps only the vertex points and those passed
-       below are meaningful afterwards. Coordinates are converted to `double`.
+       any number of components. Its elements are renumbered; of its property maps the vertex points and those passed below
+       are meaningful afterwards, and of the usual types those of the vertices of a `Surface_mesh`, at the vertices that are
+       still there. Coordinates are converted to `double`.
 \param field what to adapt to, a model of `MetricField`: `Uniform_metric_field`, `Curvature_metric_field`,
        `Solution_metric_field`, `Analytic_metric_field`, an `Intersection_metric_field` of several, or a property map
        from vertices to sizes or to `Metric_tensor_3`.
@@ -145,6 +155,30 @@ step at the end: if anything throws, it is as it was.
                    vertices are marked again on the result}
     \cgalParamDefault{no vertex is constrained}
   \cgalParamNEnd
+  \cgalParamNBegin{protect_constraints}
+    \cgalParamDescription{whether constrained edges stay in one piece, neither split nor collapsed nor swapped, and their
+                          vertices where they are. They are ridges only where they are sharp.}
+    \cgalParamType{`bool`}
+    \cgalParamDefault{`false`}
+  \cgalParamNEnd
+  \cgalParamNBegin{edge_is_protected_map}
+    \cgalParamDescription{edges that stay in one piece, where others are constrained only}
+    \cgalParamType{as `edge_is_constrained_map`; if writable, they are marked again on the result}
+    \cgalParamDefault{none, or those of `edge_is_constrained_map` with `protect_constraints`}
+  \cgalParamNEnd
+  \cgalParamNBegin{protected_gradation}
+    \cgalParamDescription{the largest ratio of the sizes at two points one size apart near protected edges: sizes follow
+                          the lengths of these, so that the faces beside them are good. At most 1: they do not}
+    \cgalParamType{`double`}
+    \cgalParamDefault{`1.5`}
+  \cgalParamNEnd
+  \cgalParamNBegin{face_patch_map}
+    \cgalParamDescription{labels of faces, such as materials. The edges between different ones are features, and each
+                          face of the result has the label of where it lies.}
+    \cgalParamType{a `ReadablePropertyMap` with the face descriptor as key and any type with `==` as value; if writable,
+                   the labels of the result are written to it}
+    \cgalParamDefault{all faces have the same}
+  \cgalParamNEnd
   \cgalParamNBegin{surface_reconstruction}
     \cgalParamDescription{the surface between the vertices of the input}
     \cgalParamType{a model of `SurfaceReconstruction`}
@@ -188,6 +222,31 @@ step at the end: if anything throws, it is as it was.
     \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the vertex descriptor as key}
     \cgalParamDefault{none}
   \cgalParamNEnd
+  \cgalParamNBegin{face_attribute_maps}
+    \cgalParamDescription{values at the faces that the result is to have, too: those of the face of the input below the
+                          centre}
+    \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the face descriptor as key}
+    \cgalParamDefault{none}
+  \cgalParamNEnd
+  \cgalParamNBegin{halfedge_attribute_maps}
+    \cgalParamDescription{values at the corners of faces, such as texture coordinates, each at the halfedge that arrives at
+                          the corner: interpolated on the input. Edges on whose sides they differ are features, so that no
+                          face lies across a seam, and both sides of it keep their own values.}
+    \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the halfedge descriptor as key; values have `==`}
+    \cgalParamDefault{none}
+  \cgalParamNEnd
+  \cgalParamNBegin{vertex_origin_map}
+    \cgalParamDescription{where the vertex of the input that a vertex was is written}
+    \cgalParamType{a `WritablePropertyMap` with the vertex descriptor as key and as value the same, of which new vertices
+                   get the null value, or a number: the place of the vertex in the input, and for new ones that of
+                   `std::size_t(-1)`}
+    \cgalParamDefault{not written}
+  \cgalParamNEnd
+  \cgalParamNBegin{face_origin_map}
+    \cgalParamDescription{where the face of the input below the centre of a face is written}
+    \cgalParamType{the same for faces}
+    \cgalParamDefault{not written}
+  \cgalParamNEnd
   \cgalParamNBegin{tolerance}
     \cgalParamDescription{the largest Hausdorff distance between the triangles of the mesh as it is and as it will be:
                           operations that leave it are refused, and the distance is bounded in the end, see
@@ -218,25 +277,54 @@ step at the end: if anything throws, it is as it was.
 \complexity O(n log n) time, O(n) memory, for n the larger of the numbers of input and output vertices
 */
 template <class Execution, class TriangleMesh, class MetricField,
-          class NamedParameters = CGAL::parameters::Default_named_parameters>
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 auto adapt_surface_mesh(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
                         const NamedParameters& np = CGAL::parameters::default_values())
   -> decltype(execution.concurrency(), Adaptation_report())
 {
-  Adaptation_report report = internal::adapt(internal::Any_execution(execution), mesh, field, np);
-  report.execution = Execution::name;
-  return report;
+  return internal::adapt_domain(execution, internal::Whole_mesh<TriangleMesh>(mesh), field, np);
+}
+
+/*!
+Adapts a range of the faces of a mesh. All others stay, with their vertices and edges, to the last bit, and so do the values
+of property maps there, passed or not. The edges between the range and the rest are protected, as those of
+`protect_constraints`. Vertices of the range that are still there keep their descriptors.
+
+\param faces a range of face descriptors of `mesh`
+\param execution, mesh, field, np as for a whole mesh; the statistics of the report are those of the faces of the range and of
+       two rings of faces around them
+
+\complexity as for a mesh of these faces, and one pass over the faces of `mesh`
+*/
+template <class Execution, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+auto adapt_surface_mesh(const Execution& execution, const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+                        const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), Adaptation_report())
+{
+  return internal::adapt_domain(execution, internal::Part_of_mesh<TriangleMesh>(faces, mesh), field, np);
 }
 
 /// The same with the policy as a template parameter: `CGAL::Sequential_tag`, `CGAL::Parallel_tag`,
 /// `CGAL::Parallel_if_available_tag`, or an execution policy of this package.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
-          class = std::enable_if_t<!internal::is_execution<TriangleMesh>>>
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 Adaptation_report adapt_surface_mesh(TriangleMesh& mesh, const MetricField& field,
                                      const NamedParameters& np = CGAL::parameters::default_values())
 {
   return adapt_surface_mesh(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
+}
+
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+Adaptation_report adapt_surface_mesh(const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+                                     const NamedParameters& np = CGAL::parameters::default_values())
+{
+  return adapt_surface_mesh(typename internal::Execution_of<ConcurrencyTag>::type(), faces, mesh, field, np);
 }
 
 } // namespace Surface_mesh_adaptation

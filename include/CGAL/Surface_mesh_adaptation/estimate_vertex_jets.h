@@ -36,7 +36,7 @@ auto estimate_vertex_jets(const Execution& execution, const TriangleMesh& mesh, 
                                                             internal::feature_parameters(mesh, imported, np));
   Jets(policy, reference, imported.vertices.size(), [&](std::size_t v) {
     return reference.location_of_vertex(Index(v));
-  }, np).write(mesh);
+  }, np).write(internal::Whole_mesh<const TriangleMesh>(mesh));
 }
 
 /// The same with the policy as a template parameter, as for `adapt_surface_mesh()`.

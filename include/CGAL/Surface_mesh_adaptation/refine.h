@@ -9,6 +9,20 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+namespace internal {
+
+/// `refine` of a whole mesh or of a range of its faces.
+template <class Execution, class Domain, class MetricField, class NamedParameters>
+std::size_t refine_domain(const Execution& execution, const Domain& domain, const MetricField& field,
+                          const NamedParameters& np)
+{
+  return run_kernel(execution, domain, field, np, 24, [](const auto& policy, auto& surface) {
+    return Refinement(policy, surface);
+  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(0, counts); });
+}
+
+} // namespace internal
+
 /*!
 Splits the edges that are longer than `sqrt 2` in the metric, until none is left that can be split without turning a
 face over (paper, section 5).
@@ -20,23 +34,43 @@ face over (paper, section 5).
 \throws as `adapt_surface_mesh`: the mesh is as it was then
 */
 template <class Execution, class TriangleMesh, class MetricField,
-          class NamedParameters = CGAL::parameters::Default_named_parameters>
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 auto refine(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
-            const NamedParameters& np = CGAL::parameters::default_values()) -> decltype(execution.concurrency(), std::size_t())
+            const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), std::size_t())
 {
-  return internal::run_kernel(execution, mesh, field, np, 24, [](const auto& policy, auto& surface) {
-    return Refinement(policy, surface);
-  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(0, counts); });
+  return internal::refine_domain(execution, internal::Whole_mesh<TriangleMesh>(mesh), field, np);
+}
+
+/// The same for the faces of a range alone, as for `adapt_surface_mesh`.
+template <class Execution, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+auto refine(const Execution& execution, const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+            const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), std::size_t())
+{
+  return internal::refine_domain(execution, internal::Part_of_mesh<TriangleMesh>(faces, mesh), field, np);
 }
 
 /// The same with the policy as a template parameter, as for `adapt_surface_mesh`.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
-          class = std::enable_if_t<!internal::is_execution<TriangleMesh>>>
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 std::size_t refine(TriangleMesh& mesh, const MetricField& field,
                    const NamedParameters& np = CGAL::parameters::default_values())
 {
   return refine(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
+}
+
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+std::size_t refine(const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+                   const NamedParameters& np = CGAL::parameters::default_values())
+{
+  return refine(typename internal::Execution_of<ConcurrencyTag>::type(), faces, mesh, field, np);
 }
 
 } // namespace Surface_mesh_adaptation

@@ -9,6 +9,20 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+namespace internal {
+
+/// `regularize` of a whole mesh or of a range of its faces.
+template <class Execution, class Domain, class MetricField, class NamedParameters>
+std::size_t regularize_domain(const Execution& execution, const Domain& domain, const MetricField& field,
+                              const NamedParameters& np)
+{
+  return run_kernel(execution, domain, field, np, 24, [](const auto& policy, auto& surface) {
+    return Regularization(policy, surface, Regularization_thresholds());
+  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });
+}
+
+} // namespace internal
+
 /*!
 Takes vertices away and puts others in where that brings the numbers of faces around vertices nearer to those of a regular
 mesh, six, or three on each side of a ridge or boundary; not more are put in than are taken away. `swap` and `relocate`
@@ -21,24 +35,43 @@ should follow.
 \throws as `adapt_surface_mesh`: the mesh is as it was then
 */
 template <class Execution, class TriangleMesh, class MetricField,
-          class NamedParameters = CGAL::parameters::Default_named_parameters>
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 auto regularize(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
                 const NamedParameters& np = CGAL::parameters::default_values())
   -> decltype(execution.concurrency(), std::size_t())
 {
-  return internal::run_kernel(execution, mesh, field, np, 24, [](const auto& policy, auto& surface) {
-    return Regularization(policy, surface, Regularization_thresholds());
-  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });
+  return internal::regularize_domain(execution, internal::Whole_mesh<TriangleMesh>(mesh), field, np);
+}
+
+/// The same for the faces of a range alone, as for `adapt_surface_mesh`.
+template <class Execution, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+auto regularize(const Execution& execution, const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+                const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), std::size_t())
+{
+  return internal::regularize_domain(execution, internal::Part_of_mesh<TriangleMesh>(faces, mesh), field, np);
 }
 
 /// The same with the policy as a template parameter, as for `adapt_surface_mesh`.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
-          class = std::enable_if_t<!internal::is_execution<TriangleMesh>>>
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 std::size_t regularize(TriangleMesh& mesh, const MetricField& field,
                        const NamedParameters& np = CGAL::parameters::default_values())
 {
   return regularize(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
+}
+
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+std::size_t regularize(const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+                       const NamedParameters& np = CGAL::parameters::default_values())
+{
+  return regularize(typename internal::Execution_of<ConcurrencyTag>::type(), faces, mesh, field, np);
 }
 
 } // namespace Surface_mesh_adaptation

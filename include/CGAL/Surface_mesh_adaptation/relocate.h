@@ -9,6 +9,22 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+namespace internal {
+
+/// `relocate` of a whole mesh or of a range of its faces.
+template <class Execution, class Domain, class MetricField, class NamedParameters>
+std::size_t relocate_domain(const Execution& execution, const Domain& domain, const MetricField& field,
+                            const NamedParameters& np)
+{
+  Relocation_thresholds thresholds;
+  thresholds.least_flatness = cosine_of_normal_deviation(np, thresholds.least_flatness);
+  return run_kernel(execution, domain, field, np, 10, [&](const auto& policy, auto& surface) {
+    return Relocation(policy, surface, thresholds);
+  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });
+}
+
+} // namespace internal
+
 /*!
 Moves vertices on the surface to improve the faces around them (paper, section 3).
 
@@ -31,25 +47,43 @@ Moves vertices on the surface to improve the faces around them (paper, section 3
 \throws as `adapt_surface_mesh`: the mesh is as it was then
 */
 template <class Execution, class TriangleMesh, class MetricField,
-          class NamedParameters = CGAL::parameters::Default_named_parameters>
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 auto relocate(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
-              const NamedParameters& np = CGAL::parameters::default_values()) -> decltype(execution.concurrency(), std::size_t())
+              const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), std::size_t())
 {
-  Relocation_thresholds thresholds;
-  thresholds.least_flatness = internal::cosine_of_normal_deviation(np, thresholds.least_flatness);
-  return internal::run_kernel(execution, mesh, field, np, 10, [&](const auto& policy, auto& surface) {
-    return Relocation(policy, surface, thresholds);
-  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });
+  return internal::relocate_domain(execution, internal::Whole_mesh<TriangleMesh>(mesh), field, np);
+}
+
+/// The same for the faces of a range alone, as for `adapt_surface_mesh`.
+template <class Execution, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+auto relocate(const Execution& execution, const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+              const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), std::size_t())
+{
+  return internal::relocate_domain(execution, internal::Part_of_mesh<TriangleMesh>(faces, mesh), field, np);
 }
 
 /// The same with the policy as a template parameter, as for `adapt_surface_mesh`.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
-          class = std::enable_if_t<!internal::is_execution<TriangleMesh>>>
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 std::size_t relocate(TriangleMesh& mesh, const MetricField& field,
                      const NamedParameters& np = CGAL::parameters::default_values())
 {
   return relocate(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
+}
+
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+std::size_t relocate(const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+                     const NamedParameters& np = CGAL::parameters::default_values())
+{
+  return relocate(typename internal::Execution_of<ConcurrencyTag>::type(), faces, mesh, field, np);
 }
 
 } // namespace Surface_mesh_adaptation

@@ -29,6 +29,29 @@ Deviation_limits deviation_limits(const NamedParameters& np)
   return limits;
 }
 
+/// `simplify` of a whole mesh or of a range of its faces.
+template <class Execution, class Domain, class MetricField, class NamedParameters>
+std::size_t simplify_domain(const Execution& execution, const Domain& domain, const MetricField& field,
+                            const NamedParameters& np)
+{
+  const auto sweep = [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); };
+  if constexpr (has_parameter<NamedParameters, internal_np::maximum_normal_deviation_t> ||
+                has_parameter<NamedParameters, internal_np::maximum_distance_t>) {
+    const Deviation_limits asked = deviation_limits(np);
+    return run_kernel(execution, domain, field, np, (std::numeric_limits<unsigned>::max)(),
+                                [&](const auto& policy, auto& surface) {
+      Simplification_thresholds thresholds;
+      thresholds.min_quality = min_quality_of_approximation;
+      Deviation_limits limits = asked; // a tolerance that is missed gets stricter
+      limits.distance = (std::min)(limits.distance, surface.tolerance_of_operations());
+      return Approximation(policy, surface, thresholds, limits);
+    }, sweep);
+  } else
+    return run_kernel(execution, domain, field, np, 24, [](const auto& policy, auto& surface) {
+      return Simplification(policy, surface, Simplification_thresholds());
+    }, sweep);
+}
+
 } // namespace internal
 
 /*!
@@ -64,36 +87,43 @@ distance, too, and is certified in the end for the whole surface, with stricter 
 \throws as `adapt_surface_mesh`: the mesh is as it was then
 */
 template <class Execution, class TriangleMesh, class MetricField,
-          class NamedParameters = CGAL::parameters::Default_named_parameters>
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 auto simplify(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
-              const NamedParameters& np = CGAL::parameters::default_values()) -> decltype(execution.concurrency(), std::size_t())
+              const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), std::size_t())
 {
-  const auto sweep = [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); };
-  if constexpr (internal::has_parameter<NamedParameters, internal_np::maximum_normal_deviation_t> ||
-                internal::has_parameter<NamedParameters, internal_np::maximum_distance_t>) {
-    const Deviation_limits asked = internal::deviation_limits(np);
-    return internal::run_kernel(execution, mesh, field, np, (std::numeric_limits<unsigned>::max)(),
-                                [&](const auto& policy, auto& surface) {
-      Simplification_thresholds thresholds;
-      thresholds.min_quality = min_quality_of_approximation;
-      Deviation_limits limits = asked; // a tolerance that is missed gets stricter
-      limits.distance = (std::min)(limits.distance, surface.tolerance_of_operations());
-      return Approximation(policy, surface, thresholds, limits);
-    }, sweep);
-  } else
-    return internal::run_kernel(execution, mesh, field, np, 24, [](const auto& policy, auto& surface) {
-      return Simplification(policy, surface, Simplification_thresholds());
-    }, sweep);
+  return internal::simplify_domain(execution, internal::Whole_mesh<TriangleMesh>(mesh), field, np);
+}
+
+/// The same for the faces of a range alone, as for `adapt_surface_mesh`.
+template <class Execution, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+auto simplify(const Execution& execution, const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+              const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), std::size_t())
+{
+  return internal::simplify_domain(execution, internal::Part_of_mesh<TriangleMesh>(faces, mesh), field, np);
 }
 
 /// The same with the policy as a template parameter, as for `adapt_surface_mesh`.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
-          class = std::enable_if_t<!internal::is_execution<TriangleMesh>>>
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 std::size_t simplify(TriangleMesh& mesh, const MetricField& field,
                      const NamedParameters& np = CGAL::parameters::default_values())
 {
   return simplify(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
+}
+
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+std::size_t simplify(const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+                     const NamedParameters& np = CGAL::parameters::default_values())
+{
+  return simplify(typename internal::Execution_of<ConcurrencyTag>::type(), faces, mesh, field, np);
 }
 
 } // namespace Surface_mesh_adaptation

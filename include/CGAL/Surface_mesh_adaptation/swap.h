@@ -9,6 +9,20 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+namespace internal {
+
+/// `swap` of a whole mesh or of a range of its faces.
+template <class Execution, class Domain, class MetricField, class NamedParameters>
+std::size_t swap_domain(const Execution& execution, const Domain& domain, const MetricField& field,
+                        const NamedParameters& np)
+{
+  return run_kernel(execution, domain, field, np, 24, [](const auto& policy, auto& surface) {
+    return Swapping(policy, surface, Swapping_thresholds());
+  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });
+}
+
+} // namespace internal
+
 /*!
 Swaps edges to improve the worst quality of their two faces, and the degrees of their vertices (paper, section 5).
 
@@ -19,13 +33,24 @@ Swaps edges to improve the worst quality of their two faces, and the degrees of 
 \throws as `adapt_surface_mesh`: the mesh is as it was then
 */
 template <class Execution, class TriangleMesh, class MetricField,
-          class NamedParameters = CGAL::parameters::Default_named_parameters>
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_mesh<TriangleMesh, MetricField>>
 auto swap(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
-          const NamedParameters& np = CGAL::parameters::default_values()) -> decltype(execution.concurrency(), std::size_t())
+          const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), std::size_t())
 {
-  return internal::run_kernel(execution, mesh, field, np, 24, [](const auto& policy, auto& surface) {
-    return Swapping(policy, surface, Swapping_thresholds());
-  }, [](auto& kernel, Sweep_counts& counts) { return kernel.sweep(counts); });
+  return internal::swap_domain(execution, internal::Whole_mesh<TriangleMesh>(mesh), field, np);
+}
+
+/// The same for the faces of a range alone, as for `adapt_surface_mesh`.
+template <class Execution, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+auto swap(const Execution& execution, const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+          const NamedParameters& np = CGAL::parameters::default_values())
+  -> decltype(execution.concurrency(), std::size_t())
+{
+  return internal::swap_domain(execution, internal::Part_of_mesh<TriangleMesh>(faces, mesh), field, np);
 }
 
 /// The same with the policy as a template parameter, as for `adapt_surface_mesh`.
@@ -36,6 +61,15 @@ std::size_t swap(TriangleMesh& mesh, const MetricField& field,
                  const NamedParameters& np = CGAL::parameters::default_values())
 {
   return swap(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
+}
+
+template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceRange, class TriangleMesh, class MetricField,
+          class NamedParameters = CGAL::parameters::Default_named_parameters,
+          class = internal::If_faces<FaceRange, TriangleMesh>>
+std::size_t swap(const FaceRange& faces, TriangleMesh& mesh, const MetricField& field,
+                 const NamedParameters& np = CGAL::parameters::default_values())
+{
+  return swap(typename internal::Execution_of<ConcurrencyTag>::type(), faces, mesh, field, np);
 }
 
 } // namespace Surface_mesh_adaptation

@@ -394,12 +394,12 @@ using Surface = SMA::Reference_surface<Gregory_reconstruction>;
 SMA::Feature_parameters dangling_ridge(const Mesh_view& mesh)
 {
   SMA::Feature_parameters p;
-  p.halfedge_is_constrained.assign(mesh.number_of_halfedges(), 0);
+  p.halfedge_constraint.assign(mesh.number_of_halfedges(), SMA::Edge_constraint::none);
   Index v = 30;
   for (int i = 0; i < 7; ++i) { // a walk straight through the fans
     Index h = mesh.outgoing[v];
     for (int k = 0; k < 3 * i % 4; ++k) h = mesh.rotated_ccw(h);
-    p.halfedge_is_constrained[h] = p.halfedge_is_constrained[mesh.twin[h]] = 1;
+    p.halfedge_constraint[h] = p.halfedge_constraint[mesh.twin[h]] = SMA::Edge_constraint::crease;
     v = mesh.target(h);
   }
   return p;

@@ -122,10 +122,10 @@ Feature_parameters constrained_chain(const Soup& soup, const std::vector<Index>&
 {
   const Mesh_view m = shapes::view(soup);
   Feature_parameters p;
-  p.halfedge_is_constrained.assign(m.number_of_halfedges(), 0);
+  p.halfedge_constraint.assign(m.number_of_halfedges(), SMA::Edge_constraint::none);
   for (std::size_t i = 1; i < chain.size(); ++i)
     for (const Index h : {m.halfedge(chain[i - 1], chain[i]), m.halfedge(chain[i], chain[i - 1])})
-      p.halfedge_is_constrained[h] = 1;
+      p.halfedge_constraint[h] = SMA::Edge_constraint::crease;
   return p;
 }
 

@@ -71,23 +71,20 @@ public:
     }
   }
 
-  /// Vertex `i` of `graph` is that of the surface.
-  template <class FaceGraph>
-  void write(const FaceGraph& graph) const
+  template <class Domain>
+  void write(const Domain& domain) const
   {
     if constexpr (has_normals) {
       const auto map = CGAL::parameters::get_parameter(np_, CGAL::internal_np::vertex_normal_map);
       using Normal = typename boost::property_traits<std::decay_t<decltype(map)>>::value_type;
-      std::size_t i = 0;
-      for (const auto v : vertices(graph)) {
-        const Vector_3& n = jets_[i++].normal;
+      domain.for_each_vertex([&](Index i, const auto& v) {
+        const Vector_3& n = jets_[i].normal;
         put(map, v, Normal(n[0], n[1], n[2]));
-      }
+      });
     }
     if constexpr (has_shape_operators) {
       const auto map = CGAL::parameters::get_parameter(np_, internal_np::vertex_shape_operator_map);
-      std::size_t i = 0;
-      for (const auto v : vertices(graph)) put(map, v, jets_[i++].shape_operator);
+      domain.for_each_vertex([&](Index i, const auto& v) { put(map, v, jets_[i].shape_operator); });
     }
   }
 

@@ -17,8 +17,8 @@ namespace Surface_mesh_adaptation {
 namespace internal {
 
 /// `make(execution, surface)` returns the kernel, `sweep(kernel, counts)` the number of operations of one sweep.
-template <class Execution, class TriangleMesh, class MetricField, class NamedParameters, class Make, class Sweep>
-std::size_t run_kernel(const Execution& execution, TriangleMesh& mesh, const MetricField& field,
+template <class Execution, class Domain, class MetricField, class NamedParameters, class Make, class Sweep>
+std::size_t run_kernel(const Execution& execution, const Domain& domain, const MetricField& field,
                        const NamedParameters& np, unsigned default_sweeps, const Make& make, const Sweep& sweep)
 {
   const std::size_t max_sweeps = choose(np, CGAL::internal_np::number_of_iterations, default_sweeps);
@@ -27,7 +27,7 @@ std::size_t run_kernel(const Execution& execution, TriangleMesh& mesh, const Met
   auto& visitor = unwrap(visitor_parameter);
   Sweep_counts counts;
   const auto interruptible = Any_execution(execution).interruptible([&] { return visitor.go_on(); });
-  adapt_in_place(interruptible, mesh, field, np, [&](const auto& policy, auto& surface) {
+  adapt_in_place(interruptible, domain, field, np, [&](const auto& policy, auto& surface) {
     auto kernel = make(policy, surface);
     Adaptation_report report;
     counts = Sweep_counts(); // with a tolerance there may be several attempts: the last one counts

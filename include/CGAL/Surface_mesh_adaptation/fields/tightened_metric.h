@@ -19,38 +19,61 @@ namespace Surface_mesh_adaptation {
 /// What sizes are multiplied with by tightening, at least: where a third is not enough, sizes are not what is missing.
 constexpr double least_factor_of_tightening = 1.0 / 3;
 
-/// The metric `m` of the point `p`, tightened: `bounds` are those of its size.
-inline Isotropic_metric tightened(const Isotropic_metric& m, const Graded_bounds& bounds, const Vector_3& p)
+/// Bounds of what a metric is at points: of the size of isotropic ones; of tensors those of a factor of all sizes, so that
+/// directions stay. Where they contradict each other, the upper ones count.
+struct Size_limits
 {
-  if (bounds.empty()) return m;
-  const double size = 1 / m.inverse_size, bound = bounds.least(p, size);
-  return bound < size ? Isotropic_metric{1 / bound} : m;
+  Graded_bounds upper;
+  Graded_bounds negated_lower; ///< lower bounds fall with the distance: their negatives grow
+
+  bool empty() const { return upper.empty() && negated_lower.empty(); }
+
+  double operator()(const Vector_3& p, double value) const { return upper.least(p, -negated_lower.least(p, -value)); }
+};
+
+/// What `Size_limits` bound of a metric.
+inline double limited_value(const Isotropic_metric& m) { return 1 / m.inverse_size; }
+inline double limited_value(const Anisotropic_metric&) { return 1; }
+
+/// How fast that may grow in space. Factors of tensors grow as they may along the largest size, more slowly than they may
+/// along others.
+inline double slope(const Isotropic_metric&, double gradation) { return std::log(gradation); }
+
+inline double slope(const Anisotropic_metric& m, double gradation)
+{
+  return std::log(gradation) * std::sqrt(eigen_decomposition(m.m).values[0]);
 }
 
-/// The same for tensors: `bounds` are those of a factor of all sizes, so that directions stay.
-inline Anisotropic_metric tightened(const Anisotropic_metric& m, const Graded_bounds& bounds, const Vector_3& p)
+/// The metric `m` of the point `p` within `limits`.
+inline Isotropic_metric limited(const Isotropic_metric& m, const Size_limits& limits, const Vector_3& p)
 {
-  const double factor = bounds.least(p, 1);
-  return factor < 1 ? scaled(m, 1 / (factor * factor)) : m;
+  if (limits.empty()) return m;
+  const double size = limited_value(m), bounded = limits(p, size);
+  return bounded != size ? Isotropic_metric{1 / bounded} : m;
 }
 
-/// What makes the size at `p`, which is that of `m` up to now bounded by `bounds`, `factor` times as large.
-inline Graded_bounds::Source tightening(const Isotropic_metric& m, const Graded_bounds& bounds, const Vector_3& p,
-                                        double factor, const Metric_aims& aims)
+inline Anisotropic_metric limited(const Anisotropic_metric& m, const Size_limits& limits, const Vector_3& p)
 {
-  const double size = 1 / m.inverse_size;
-  return {p, (std::max)({factor * bounds.least(p, size), least_factor_of_tightening * size, aims.hmin}),
-          std::log(aims.gradation)};
+  const double factor = limits(p, 1);
+  return factor != 1 ? scaled(m, 1 / (factor * factor)) : m;
 }
 
-/// The same for tensors. Factors grow as they may along the largest size, more slowly than they may along others.
-inline Graded_bounds::Source tightening(const Anisotropic_metric& m, const Graded_bounds& bounds, const Vector_3& p,
-                                        double factor, const Metric_aims& aims)
+/// The value of the smallest size that is allowed.
+inline double least_value(const Isotropic_metric&, double hmin) { return hmin; }
+
+inline double least_value(const Anisotropic_metric& m, double hmin)
 {
-  const Vector_3 eigenvalues = eigen_decomposition(m.m).values;
-  const double smallest = 1 / std::sqrt(eigenvalues[2]), largest = 1 / std::sqrt(eigenvalues[0]);
-  return {p, (std::max)({factor * bounds.least(p, 1), least_factor_of_tightening, aims.hmin / smallest}),
-          std::log(aims.gradation) / largest};
+  return hmin * std::sqrt(eigen_decomposition(m.m).values[2]);
+}
+
+/// What makes the size at `p`, which is that of `m` up to now within `limits`, `factor` times as large.
+template <class Metric>
+Graded_bounds::Source tightening(const Metric& m, const Size_limits& limits, const Vector_3& p, double factor,
+                                 const Metric_aims& aims)
+{
+  const double value = limited_value(m);
+  return {p, (std::max)({factor * limits(p, value), least_factor_of_tightening * value, least_value(m, aims.hmin)}),
+          slope(m, aims.gradation)};
 }
 
 } // namespace Surface_mesh_adaptation

@@ -309,7 +309,27 @@ public:
   void scale_metric(const Execution& execution, double factor)
   {
     scale_ *= factor;
-    for_each_index(execution, metrics.size(), [&](std::size_t v) { metrics[v] = scaled(metrics[v], factor); });
+    if (!limits_.empty()) update_metrics(execution);
+    else for_each_index(execution, metrics.size(), [&](std::size_t v) { metrics[v] = scaled(metrics[v], factor); });
+  }
+
+  /// Lets sizes near protected edges, which cannot change, follow their lengths, larger and smaller ones, and come back to
+  /// those of the metric with the distance. Nothing for a `gradation` of at most 1.
+  template <class Execution>
+  void follow_protected_edges(const Execution& execution, double gradation)
+  {
+    std::vector<Graded_bounds::Source> upper, negated_lower;
+    if (gradation > 1)
+      for (Index v = 0; v < metrics.size(); ++v) {
+        const double ratio = mean_length_of_protected_edges(v);
+        if (ratio == 0) continue;
+        const double value = ratio * limited_value(metrics[v]), growth = slope(metrics[v], gradation);
+        upper.push_back({points[v], value, growth});
+        negated_lower.push_back({points[v], -value, growth});
+      }
+    if (upper.empty()) return;
+    limits_ = {Graded_bounds(execution, std::move(upper)), Graded_bounds(execution, std::move(negated_lower))};
+    update_metrics(execution);
   }
 
   /// Multiplies the sizes at the vertices by those `factors` that are below 1, and around them as the gradation wants
@@ -317,28 +337,21 @@ public:
   template <class Execution>
   std::vector<std::uint8_t> tighten_metric(const Execution& execution, const std::vector<double>& factors)
   {
-    const auto surface_point = [&](Index v) { return Surface_point{points[v], normals[v]}; };
-    std::vector<Graded_bounds::Source> sources = bounds_.sources();
+    std::vector<Graded_bounds::Source> sources = limits_.upper.sources();
     for (const Index v : pack(execution, factors.size(), [&](std::size_t i) { return factors[i] < 1; })) {
-      const Metric untightened = background_->at(*reference_, locations[v], surface_point(v));
-      sources.push_back(tightening(untightened, bounds_, points[v], factors[v], background_->aims()));
+      const Metric unlimited = background_->at(*reference_, locations[v], surface_point(v));
+      sources.push_back(tightening(unlimited, limits_, points[v], factors[v], background_->aims()));
     }
-    bounds_ = Graded_bounds(execution, std::move(sources));
-    std::vector<std::uint8_t> is_changed(metrics.size());
-    for_each_index(execution, metrics.size(), [&](std::size_t v) {
-      const Metric now = metric(locations[v], surface_point(Index(v)));
-      is_changed[v] = now == metrics[v] ? 0 : 1;
-      metrics[v] = now;
-    });
-    return is_changed;
+    limits_.upper = Graded_bounds(execution, std::move(sources));
+    return update_metrics(execution);
   }
 
   /// Gives back the memory; nothing but the destructor may be called afterwards.
   template <class Execution>
   void release(const Execution& execution)
   {
-    Surface_mesh_adaptation::release(execution, mesh.corner, mesh.twin, mesh.curve, mesh.outgoing, points, normals,
-                                     metrics, locations, origin, active);
+    Surface_mesh_adaptation::release(execution, mesh.corner, mesh.twin, mesh.curve, mesh.outgoing, mesh.label, points,
+                                     normals, metrics, locations, origin, active);
   }
 
   void resize_vertices(std::size_t n)
@@ -352,6 +365,40 @@ public:
   }
 
 private:
+  Surface_point surface_point(Index v) const { return {points[v], normals[v]}; }
+
+  /// Returns a 1 for each vertex of which the metric is another one now. \pre no vertex is removed
+  template <class Execution>
+  std::vector<std::uint8_t> update_metrics(const Execution& execution)
+  {
+    std::vector<std::uint8_t> is_changed(metrics.size());
+    for_each_index(execution, metrics.size(), [&](std::size_t v) {
+      const Metric now = metric(locations[v], surface_point(Index(v)));
+      is_changed[v] = now == metrics[v] ? 0 : 1;
+      metrics[v] = now;
+    });
+    return is_changed;
+  }
+
+  /// In the metric, of those at `v`; 0 if there are none, or no others.
+  double mean_length_of_protected_edges(Index v) const
+  {
+    double sum = 0;
+    std::size_t n = 0, others = 0;
+    const auto add = [&](Index h) {
+      if (!mesh.is_protected(h)) return void(++others);
+      sum += length(h);
+      ++n;
+    };
+    Index last = no_index;
+    mesh.for_each_outgoing(v, [&](Index h) {
+      add(h);
+      last = Mesh_view::previous(h);
+    });
+    if (mesh.is_border(last)) add(last);
+    return n > 0 && others > 0 ? sum / double(n) : 0;
+  }
+
   /// The lesser height above the edge of `h`, which is not on the boundary, of the two faces there.
   double least_height_at(Index h) const
   {
@@ -400,7 +447,7 @@ private:
   Metric metric(const Location& l, const Surface_point& p) const
   {
     const Metric of_background = background_->at(*reference_, l, p);
-    return tightened(scale_ == 1 ? of_background : scaled(of_background, scale_), bounds_, p.position);
+    return limited(scale_ == 1 ? of_background : scaled(of_background, scale_), limits_, p.position);
   }
 
   static constexpr double max_skew = 0.1;         // of a parallelogram, in lengths of the diagonal
@@ -417,7 +464,7 @@ private:
   const Tolerance* tolerance_;
   std::optional<Covered_points> covered_; // if there is a tolerance
   double scale_ = 1; ///< of the metric
-  Graded_bounds bounds_; ///< by which it is tightened
+  Size_limits limits_;   ///< the same
 };
 
 } // namespace Surface_mesh_adaptation

@@ -56,7 +56,7 @@ public:
   ~Refinement()
   {
     release(execution_, points_, normals_, metrics_, locations_, origin_, active_, spare_.corner, spare_.twin,
-            spare_.curve, spare_.outgoing);
+            spare_.curve, spare_.outgoing, spare_.label);
   }
 
   /// Splits every edge that is too long, once, if there are more than `negligible`. Returns the number of edges split.
@@ -146,7 +146,7 @@ private:
     fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
     for_each_face([&](Index f) {
       for (Index i = 0; i < 3; ++i)
-        if (is_too_long(3 * f + i)) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
+        if (!mesh_.is_protected(3 * f + i) && is_too_long(3 * f + i)) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
     });
   }
 

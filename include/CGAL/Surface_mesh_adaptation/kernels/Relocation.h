@@ -459,8 +459,14 @@ private:
     if (!(surface_.metrics[v].length(d * tangent) >= min_move_)) return false;
     const Shape before = shape(star, surface_.vertex(v));
     const double limit = (std::min)(before.worst, good_quality(v));
+    const auto offset = [&](const Placed_vertex<Metric>& p) {
+      return (std::max)(offset_of_drawn_curve(surface_, p, surface_.vertex(w0), curve),
+                        offset_of_drawn_curve(surface_, p, surface_.vertex(w1), curve));
+    };
     for (const double scale : {1.0, 0.5}) {
       const auto moved = surface_.place(surface_.reference().on_curve(curve, arc0.first + scale * d));
+      const double after_offset = offset(moved);
+      if (after_offset > max_offset_of_drawn && after_offset > offset(surface_.vertex(v))) continue;
       const Shape after = shape(star, moved);
       if (after.worst >= limit && is_upright(v, before, after, moved, attempt) && apply(v, star, moved)) return true;
     }

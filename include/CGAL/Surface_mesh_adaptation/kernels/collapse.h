@@ -55,6 +55,7 @@ bool is_curve_preserved(const Surface& surface, Index s, Index d)
   if (other == no_index) return false;
   const Vector_3 a = surface.points[d] - surface.points[s], b = surface.points[s] - surface.points[other];
   if (a.dot(b) < min_curve_turn * a.norm() * b.norm()) return false;
+  if (offset_of_drawn_curve(surface, surface.vertex(d), surface.vertex(other), curve) > max_offset_of_drawn) return false;
   for (const Index h : {mesh.halfedge(d, other), mesh.halfedge(other, d)})
     if (h != no_index && mesh.is_feature(h)) return false;
   const auto& c = surface.reference().features.curves[curve];

@@ -44,6 +44,37 @@ double spacing_length(const Surface& surface, Index h)
   return 0.5 * (on_curve + beside);
 }
 
+/// Edges leave a drawn curve, such as the border of two labels, by at most this part of the size: nothing else tells
+/// where it is.
+constexpr double max_offset_of_drawn = 0.1;
+
+/// How far the edge between two neighbours on `curve` is from the vertices that the input has between them, in the metric
+/// of the first; 0 on curves that are not drawn, which are as smooth as they look.
+template <class Surface, class Placed_vertex>
+double offset_of_drawn_curve(const Surface& surface, const Placed_vertex& a, const Placed_vertex& b, Index curve)
+{
+  if (!surface.mesh.curves.is_drawn(curve)) return 0;
+  const Feature_curve& c = surface.reference().features.curves[curve];
+  const auto arc = surface.reference().arc(curve, a.location, b.location);
+  const double low = (std::min)(arc.first, arc.second), high = (std::max)(arc.first, arc.second);
+  const Vector_3 e = b.point - a.point;
+  double largest = 0;
+  const auto look_between = [&](double from, double to) {
+    const auto first = std::upper_bound(c.arc_length.begin(), c.arc_length.end(), from);
+    for (auto s = first; s != c.arc_length.end() && *s < to; ++s) {
+      const Vector_3 d = surface.reference().points[c.vertices[std::size_t(s - c.arc_length.begin())]] - a.point;
+      const double t = e.squaredNorm() > 0 ? std::clamp(d.dot(e) / e.squaredNorm(), 0.0, 1.0) : 0;
+      largest = (std::max)(largest, a.metric.length(d - t * e));
+    }
+  };
+  look_between(low, high);
+  if (c.is_closed()) { // arcs across its start reach beyond one of its ends
+    look_between(low + c.length(), high + c.length());
+    look_between(low - c.length(), high - c.length());
+  }
+  return largest;
+}
+
 /// Consecutive edges of a feature curve, with their lengths in the metric as they count here. Corners end it.
 struct Curve_window
 {

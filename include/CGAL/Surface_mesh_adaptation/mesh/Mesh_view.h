@@ -32,13 +32,29 @@ constexpr std::size_t max_number_of_faces = std::numeric_limits<std::int32_t>::m
 /// Mark of a halfedge that lies on no feature curve.
 constexpr Index no_curve = ~Index(0);
 
+/// Kinds of feature curves, which are numbered kind by kind. Creases part smooth sectors, all others lie inside of them:
+/// drawn ones on the surface, where that is, and borders of planes, which have a shape of their own as creases do. The edges
+/// of those that are protected stay in one piece.
+struct Curve_ranges
+{
+  Index first_protected = no_curve;    ///< those before are creases that may change
+  Index first_smooth = no_curve;       ///< those before are creases
+  Index end_of_protected = no_curve;   ///< those from `first_smooth` up to here are protected and drawn
+  Index first_plane_border = no_curve; ///< those from `first_smooth` up to here are drawn
+
+  bool is_crease(Index curve) const { return curve < first_smooth; }
+  bool is_protected(Index curve) const { return curve >= first_protected && curve < end_of_protected; }
+  bool is_drawn(Index curve) const { return curve >= first_smooth && curve < first_plane_border; }
+};
+
 class Mesh_view
 {
 public:
   Buffer<Index> corner;    ///< vertex at each corner (source of each halfedge); `no_index` in removed faces
   Buffer<Index> twin;      ///< opposite halfedge, `no_index` on the boundary
   Buffer<Index> curve;     ///< feature curve of each halfedge, equal on both sides, or `no_curve`
-  Index first_smooth_curve = no_curve; ///< from it on, curves lie inside of smooth sectors
+  Curve_ranges curves;     ///< which of these are what
+  Buffer<Index> label;     ///< of each face, the same on all faces that no feature parts; empty if there are none
   Buffer<Index> outgoing;  ///< a halfedge that leaves each vertex: on the boundary the one without twin;
                                 ///< `no_index` for removed vertices
 
@@ -60,7 +76,12 @@ public:
   bool is_border(Index h) const { return twin[h] == no_index; }
   bool is_feature(Index h) const { return curve[h] != no_curve; }
   /// Whether `h` is a feature that parts smooth sectors.
-  bool is_crease(Index h) const { return curve[h] < first_smooth_curve; }
+  bool is_crease(Index h) const { return curves.is_crease(curve[h]); }
+  /// Whether the edge of `h` stays in one piece.
+  bool is_protected(Index h) const { return curves.is_protected(curve[h]); }
+  /// Whether the edge of `h` is on a curve that has a shape of its own.
+  bool is_shaped(Index h) const { return is_feature(h) && !curves.is_drawn(curve[h]); }
+  bool has_labels() const { return !label.empty(); }
   bool is_removed_vertex(Index v) const { return outgoing[v] == no_index; }
   bool is_removed_face(Index f) const { return corner[3 * std::size_t(f)] == no_index; }
   bool is_border_vertex(Index v) const { return is_border(outgoing[v]); }
@@ -181,6 +202,7 @@ public:
     glue(3 * g + 2, to, curve_b);
     outgoing[p] = to;
     outgoing[m] = h;
+    if (has_labels()) label[f] = label[g] = label[face(h)];
   }
 
   /// An edge with the direction in which it is to be collapsed. `h` is any halfedge of the edge; a boundary edge has

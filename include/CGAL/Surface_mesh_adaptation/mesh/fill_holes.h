@@ -42,6 +42,7 @@ inline void move_face(Mesh_view& mesh, Index from, Index to)
     if (mesh.twin[h] != no_index) mesh.twin[mesh.twin[h]] = g;
     if (mesh.outgoing[mesh.corner[h]] == h) mesh.outgoing[mesh.corner[h]] = g;
   }
+  if (mesh.has_labels()) mesh.label[to] = mesh.label[from];
 }
 
 } // namespace internal
@@ -69,6 +70,7 @@ void fill_holes(Mesh_view& mesh, const Holes& vertex_holes, const Holes& face_ho
   mesh.corner.resize(3 * nf);
   mesh.twin.resize(3 * nf);
   mesh.curve.resize(3 * nf);
+  if (mesh.has_labels()) mesh.label.resize(nf);
 }
 
 } // namespace Surface_mesh_adaptation

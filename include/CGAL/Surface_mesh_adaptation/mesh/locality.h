@@ -124,11 +124,18 @@ double share_of_near_ends(const Execution& execution, const Mesh_view& mesh)
 /// at the scale of blocks, and are a poor order once they are refined.
 constexpr double good_locality = 0.7;
 
-/// Renumbers vertices along the Hilbert curve, and faces by their smallest vertex, unless the order is good already; the
-/// marks of `constraints` at halfedges and vertices follow.
-/// Returns the numbers that the vertices had; none if they keep them.
-template <class Execution, class Import, class Constraints>
-std::vector<Index> improve_locality(const Execution& execution, Import& imported, Constraints& constraints)
+/// The numbers that vertices and faces had before; none if they keep them.
+struct Renumbering
+{
+  std::vector<Index> vertices, faces;
+
+  Index vertex(Index v) const { return vertices.empty() ? v : vertices[v]; }
+  Index face(Index f) const { return faces.empty() ? f : faces[f]; }
+};
+
+/// Renumbers vertices along the Hilbert curve, and faces by their smallest vertex, unless the order is good already.
+template <class Execution, class Import>
+Renumbering improve_locality(const Execution& execution, Import& imported)
 {
   Mesh_view& mesh = imported.mesh;
   if (share_of_near_ends(execution, mesh) >= good_locality) return {};
@@ -139,7 +146,7 @@ std::vector<Index> improve_locality(const Execution& execution, Import& imported
     face_key[f] = (std::min)({new_vertex[mesh.corner[3 * f]], new_vertex[mesh.corner[3 * f + 1]],
                               new_vertex[mesh.corner[3 * f + 2]]});
   });
-  const std::vector<Index> face_order = sorted_by_key(execution, face_key);
+  std::vector<Index> face_order = sorted_by_key(execution, face_key);
   const std::vector<Index> new_face = inverse(execution, face_order);
   const auto new_halfedge = [&](Index h) { return h == no_index ? h : 3 * new_face[h / 3] + h % 3; };
 
@@ -153,12 +160,10 @@ std::vector<Index> improve_locality(const Execution& execution, Import& imported
   reorder(execution, face_order, 3, mesh.corner);
   reorder(execution, face_order, 3, mesh.twin);
   reorder(execution, face_order, 3, imported.halfedges);
-  reorder(execution, face_order, 3, constraints.halfedge_is_constrained);
   reorder(execution, vertex_order, 1, mesh.outgoing);
   reorder(execution, vertex_order, 1, imported.points);
   reorder(execution, vertex_order, 1, imported.vertices);
-  reorder(execution, vertex_order, 1, constraints.vertex_is_constrained);
-  return vertex_order;
+  return {std::move(vertex_order), std::move(face_order)};
 }
 
 } // namespace internal

@@ -13,6 +13,7 @@
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -150,11 +151,12 @@ public:
   void build(const Execution& execution, Mesh_view& result, std::size_t expected_vertices = 0) const
   {
     const std::size_t n = 3 * std::size_t(number_of_faces_), expected = 6 * expected_vertices;
-    result.first_smooth_curve = mesh_.first_smooth_curve;
+    result.curves = mesh_.curves;
     resize_and_forget(result.corner, n, expected);
     resize_and_forget(result.twin, n, expected);
     resize_and_forget(result.curve, n, expected);
     resize_and_forget(result.outgoing, number_of_vertices_, expected_vertices);
+    resize_and_forget(result.label, mesh_.has_labels() ? n / 3 : 0, expected / 3);
     for_each_index(execution, mesh_.number_of_faces(), [&](std::size_t f) {
       if (!mesh_.is_removed_face(Index(f))) write_children(result, Index(f));
     });
@@ -191,6 +193,7 @@ private:
       if (is_split(h)) id[std::size_t(3 + i)] = midpoint(h);
     }
     const Index first = 3 * face_offset_[f];
+    if (mesh_.has_labels()) std::fill_n(result.label.begin() + first / 3, pattern.number_of_children, mesh_.label[f]);
     for (int i = 0; i < 3 * pattern.number_of_children; ++i) {
       const Index h = first + Index(i);
       result.corner[h] = id[pattern.child[std::size_t(i / 3)][std::size_t(i % 3)]];

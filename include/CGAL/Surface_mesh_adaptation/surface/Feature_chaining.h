@@ -90,13 +90,17 @@ private:
   {
     if (features_.vertex_class[v] == Vertex_class::corner) return Vertex_class::corner;
     Ring<Index> along;
-    std::size_t n_smooth = 0;
+    std::uint8_t first = Feature_marks::none;
+    bool may_pass = true;
     marks_.for_each_neighbor(v, [&](Index w, std::uint8_t mark) {
+      if (along.empty()) first = mark;
       along.push_back(w);
-      n_smooth += mark == Feature_marks::smooth;
+      may_pass = may_pass && Feature_marks::is_smooth(mark) == Feature_marks::is_smooth(first) &&
+                 (mark == Feature_marks::smooth) == (first == Feature_marks::smooth) &&
+                 !Feature_marks::is_protected(mark);
     });
     if (along.empty()) return Vertex_class::smooth;
-    if (along.size() != 2 || n_smooth == 1) return Vertex_class::corner;
+    if (along.size() != 2 || !may_pass) return Vertex_class::corner;
     const Vector_3 a = points_[v] - points_[along[0]], b = points_[along[1]] - points_[v];
     const bool straight = a.dot(b) >= std::cos(parameters_.corner_angle * CGAL_PI / 180) * a.norm() * b.norm();
     return straight && !is_bend_of_lines(v, along) ? Vertex_class::curve : Vertex_class::corner;
@@ -165,21 +169,31 @@ private:
   void chain_curves()
   {
     mesh_.curve.assign(mesh_.number_of_halfedges(), no_curve);
-    const auto start_chains = [&](Vertex_class kind, bool are_smooth) {
-      for (const Index v : feature_vertices_) {
-        if (features_.vertex_class[v] != kind) continue;
-        Ring<Index> along;
-        marks_.for_each_neighbor(v, [&](Index w, std::uint8_t mark) {
-          if ((mark == Feature_marks::smooth) == are_smooth) along.push_back(w);
-        });
-        for (Index w : along)
-          if (mesh_.curve[mesh_.any_halfedge(v, w)] == no_curve) add_curve(chain_from(v, w));
-      }
+    using Marks = Feature_marks;
+    const auto chain = [&](const auto& is_of_kind) {
+      add_curves_from(Vertex_class::corner, is_of_kind);
+      add_curves_from(Vertex_class::curve, is_of_kind); // what is left are cycles
+      return Index(features_.curves.size());
     };
-    for (const bool are_smooth : {false, true}) {
-      if (are_smooth) mesh_.first_smooth_curve = Index(features_.curves.size());
-      start_chains(Vertex_class::corner, are_smooth);
-      start_chains(Vertex_class::curve, are_smooth); // what is left are cycles
+    mesh_.curves.first_protected = chain([](std::uint8_t m) { return m == Marks::ridge || m == Marks::kept; });
+    mesh_.curves.first_smooth = chain([](std::uint8_t m) { return m == Marks::protected_crease; });
+    mesh_.curves.end_of_protected = chain([](std::uint8_t m) { return m == Marks::protected_smooth; });
+    mesh_.curves.first_plane_border = chain([](std::uint8_t m) { return m == Marks::kept_smooth; });
+    chain([](std::uint8_t m) { return m == Marks::smooth; });
+  }
+
+  /// Adds the curves of marks for which `is_of_kind(mark)` that start at vertices of one class.
+  template <class IsOfKind>
+  void add_curves_from(Vertex_class vertex_class, const IsOfKind& is_of_kind)
+  {
+    for (const Index v : feature_vertices_) {
+      if (features_.vertex_class[v] != vertex_class) continue;
+      Ring<Index> along;
+      marks_.for_each_neighbor(v, [&](Index w, std::uint8_t mark) {
+        if (is_of_kind(mark)) along.push_back(w);
+      });
+      for (Index w : along)
+        if (mesh_.curve[mesh_.any_halfedge(v, w)] == no_curve) add_curve(chain_from(v, w));
     }
   }
 

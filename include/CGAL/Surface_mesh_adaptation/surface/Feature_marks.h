@@ -44,9 +44,12 @@ constexpr double largest_angle_for_planes = 90;
 class Feature_marks
 {
 public:
-  /// Those that are `kept` are on the boundary or constrained, and never filtered; the normals on both sides of those
-  /// that are `smooth` are one.
-  enum Mark : std::uint8_t { none, ridge, kept, smooth };
+  /// Those from `kept` on are on the boundary or constrained, and never filtered. The normals on both sides of smooth
+  /// ones are one. Protected ones stay in one piece.
+  enum Mark : std::uint8_t { none, ridge, smooth, kept, kept_smooth, protected_crease, protected_smooth };
+
+  static bool is_smooth(std::uint8_t mark) { return mark == smooth || mark == kept_smooth || mark == protected_smooth; }
+  static bool is_protected(std::uint8_t mark) { return mark >= protected_crease; }
 
   template <class Execution>
   Feature_marks(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
@@ -62,6 +65,7 @@ public:
       unmark_wrong_diagonals(execution);
       remove_short_ridges(execution);
     }
+    mark_constraints(execution);
     if (parameters.smooth_borders && facets_.are_chords()) mark_smooth_borders(execution);
   }
 
@@ -119,13 +123,34 @@ private:
     for_each_index(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
       const Index h = Index(i);
       if (!mesh_.is_edge_owner(h)) return;
-      const bool constrained = !parameters_.halfedge_is_constrained.empty() &&
-                               parameters_.halfedge_is_constrained[h] != 0;
-      std::uint8_t mark = none;
-      if (mesh_.is_border(h) || constrained) mark = kept;
-      else if (parameters_.detect_ridges && is_ridge(h)) mark = ridge;
+      const Mark mark = first_mark(h);
       is_feature_[h] = mark;
       if (!mesh_.is_border(h)) is_feature_[mesh_.twin[h]] = mark;
+    });
+  }
+
+  Mark first_mark(Index h) const
+  {
+    if (mesh_.is_border(h) || constraint(h) == Edge_constraint::crease) return kept;
+    return parameters_.detect_ridges && is_ridge(h) ? ridge : none;
+  }
+
+  Edge_constraint constraint(Index h) const
+  {
+    return parameters_.halfedge_constraint.empty() ? Edge_constraint::none : parameters_.halfedge_constraint[h];
+  }
+
+  /// Marks borders of labels and protected edges, once it is known where the surface is sharp: where they lie says
+  /// nothing of its shape.
+  template <class Execution>
+  void mark_constraints(const Execution& execution)
+  {
+    if (parameters_.halfedge_constraint.empty()) return;
+    for_each_index(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
+      const Index h = Index(i);
+      const bool is_crease = is_marked(h);
+      if (constraint(h) == Edge_constraint::border) is_feature_[h] = is_crease ? kept : kept_smooth;
+      if (constraint(h) == Edge_constraint::protect) is_feature_[h] = is_crease ? protected_crease : protected_smooth;
     });
   }
 
@@ -195,7 +220,7 @@ private:
       const Vector_3 n = normal(Mesh_view::face(mesh_.twin[longest]));
       set_mark(longest, none);
       for (const Index h : {Mesh_view::next(longest), Mesh_view::previous(longest)})
-        if (is_feature_[h] != kept)
+        if (is_feature_[h] < kept)
           set_mark(h, is_turned(n, normal(Mesh_view::face(mesh_.twin[h])), cosine_of_ridge_) ? ridge : none);
     }
   }
@@ -270,7 +295,7 @@ private:
 
   double squared_length(Index h) const { return (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm(); }
 
-  /// \pre `h` is not marked as `kept`, and thus not on the boundary
+  /// \pre `h` is not kept, and thus not on the boundary
   void set_mark(Index h, Mark mark) { is_feature_[h] = is_feature_[mesh_.twin[h]] = mark; }
 
   /// Ridges that form a short chain with an open end: touching nothing else, or still shorter, branching off others.

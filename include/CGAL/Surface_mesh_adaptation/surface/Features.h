@@ -56,14 +56,22 @@ struct Curve_node
   Index index = 0;
 };
 
-/// What the user asks for and constrains; flags are per element of the mesh view, empty for "none".
+/// What a user asks of an edge.
+enum class Edge_constraint : std::uint8_t {
+  none,
+  crease,      ///< a feature as ridges are
+  border,      ///< a feature, but a ridge only if it is one: two labels or charts meet there
+  protect      ///< the same, and it stays in one piece between vertices that stay where they are
+};
+
+/// What the user asks for and constrains; entries are per element of the mesh view, empty for "none".
 struct Feature_parameters
 {
   bool detect_ridges = true;
   double ridge_angle = 45;    ///< degrees: an edge is a ridge if the normals of its faces differ by more
   double corner_angle = 60;   ///< degrees: a curve that turns by more at a vertex has a corner there
   bool smooth_borders = false; ///< whether planes keep their outlines where something curved joins them smoothly
-  std::vector<std::uint8_t> halfedge_is_constrained;
+  std::vector<Edge_constraint> halfedge_constraint; ///< the same on both sides
   std::vector<std::uint8_t> vertex_is_constrained;
 };
 

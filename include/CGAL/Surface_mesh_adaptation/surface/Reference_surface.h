@@ -37,6 +37,15 @@ struct Location
                               ///< arc length from the start of the curve
 };
 
+/// The location on the edge of the halfedge `h`, in its face, `t` of the way from its source.
+inline Location location_on_edge(Index h, double t)
+{
+  std::array<double, 3> weights{};
+  weights[h % 3] = 1 - t;
+  weights[(h + 1) % 3] = t;
+  return {Vertex_class::smooth, Mesh_view::face(h), weights[1], weights[2]};
+}
+
 template <class Reconstruction>
 class Reference_surface
 {
@@ -92,7 +101,7 @@ public:
     for (std::size_t i = 0; i < 3; ++i) {
       p.is_straight[i] = is_straight(Index(h + i), p, i);
       const Index curve = mesh.curve[h + i];
-      p.is_feature[i] = curve != no_curve;
+      p.is_feature[i] = mesh.is_shaped(Index(h + i));
       if (!p.is_feature[i]) continue;
       const Index v = mesh.corner[h + i], w = mesh.corner[h + (i + 1) % 3];
       p.tangents[i] = {features.tangent(curve, v, w), features.tangent(curve, w, v)};
@@ -105,7 +114,7 @@ public:
   {
     switch (l.kind) {
     case Vertex_class::smooth: return prepared_patch(l.cell).evaluate(l.u, l.v);
-    case Vertex_class::curve: return {curve_point(features.curves[l.cell], l.u), Vector_3::Zero()};
+    case Vertex_class::curve: return {curve_point(l), Vector_3::Zero()};
     default: return {points[l.cell], Vector_3::Zero()};
     }
   }
@@ -308,7 +317,7 @@ private:
   bool is_straight(Index h, const Patch& p, std::size_t i) const
   {
     const Index t = mesh.twin[h];
-    if (t == no_index || mesh.is_feature(h)) return false;
+    if (t == no_index || mesh.is_shaped(h)) return false;
     if (is_plane(Mesh_view::face(h)) || is_plane(Mesh_view::face(t))) return true;
     const std::size_t j = (i + 1) % 3;
     if (p.has_shape_operator[i] && p.has_shape_operator[j]) return false;
@@ -343,10 +352,7 @@ private:
       h = mesh.halfedge(at.vertices[1], at.vertices[0]);
       t = at.weights[0];
     }
-    std::array<double, 3> weights{};
-    weights[h % 3] = 1 - t;
-    weights[(h + 1) % 3] = t;
-    return {Vertex_class::smooth, Mesh_view::face(h), weights[1], weights[2]};
+    return location_on_edge(h, t);
   }
 
   /// The shape operator of the patch at `l`, where it has the normal `normal`, from a small triangle around.
@@ -419,11 +425,13 @@ private:
     return exit;
   }
 
-  Vector_3 curve_point(const Feature_curve& c, double s) const
+  Vector_3 curve_point(const Location& l) const
   {
-    const std::size_t i = c.segment(s);
+    if (mesh.curves.is_drawn(l.cell)) return evaluate(location_beside(interpolation(l))).position;
+    const Feature_curve& c = features.curves[l.cell];
+    const std::size_t i = c.segment(l.u);
     return Reconstruction::evaluate_curve(points[c.vertices[i]], points[c.vertices[i + 1]], c.ends[i][0],
-                                          c.ends[i][1], c.parameter(i, s));
+                                          c.ends[i][1], c.parameter(i, l.u));
   }
 
   /// The arc length of `a` on `c`; a corner is at the end that is nearer to its neighbour `b`.

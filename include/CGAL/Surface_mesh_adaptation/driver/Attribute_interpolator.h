@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Attributes of the user at the vertices (scalars, vectors, colours, texture coordinates) on the adapted mesh. They are
-// interpolated once, on the surface of the input, where the vertices have ended up: nothing is smeared on the way.
+// How attributes of the user (scalars, vectors, colours, texture coordinates) are interpolated between three vertices.
 
-#ifndef CGAL_SURFACE_MESH_ADAPTATION_DRIVER_ATTRIBUTE_TRANSFER_H
-#define CGAL_SURFACE_MESH_ADAPTATION_DRIVER_ATTRIBUTE_TRANSFER_H
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_DRIVER_ATTRIBUTE_INTERPOLATOR_H
+#define CGAL_SURFACE_MESH_ADAPTATION_DRIVER_ATTRIBUTE_INTERPOLATOR_H
 
 #include <CGAL/IO/Color.h>
 #include <CGAL/Point_2.h>
 #include <CGAL/Point_3.h>
 
-#include <boost/graph/graph_traits.hpp>
-#include <boost/property_map/property_map.hpp>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
 #include <type_traits>
-#include <utility>
-#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -95,56 +87,7 @@ struct Attribute_interpolator<CGAL::IO::Color>
   }
 };
 
-namespace internal {
-
-/// The values of `maps` at the vertices of the input, from before it is replaced.
-template <class FaceGraph, class... Maps>
-class Attribute_transfer
-{
-public:
-  template <class Imported_mesh>
-  Attribute_transfer(const Imported_mesh& imported, const std::tuple<Maps...>& maps) : maps_(maps)
-  {
-    for_each([&](const auto& map, auto& values) {
-      values.reserve(imported.vertices.size());
-      for (const auto v : imported.vertices) values.push_back(get(map, v));
-    });
-  }
-
-  /// Writes them to `graph`, of which vertex `i` is that of `surface`.
-  template <class Surface>
-  void write(const FaceGraph& graph, const Surface& surface)
-  {
-    std::size_t i = 0;
-    for (const auto v : vertices(graph)) {
-      const auto at = surface.reference().interpolation(surface.locations[i++]);
-      for_each([&](const auto& map, const auto& values) {
-        using Value = typename std::decay_t<decltype(values)>::value_type;
-        put(map, v, Attribute_interpolator<Value>()(at.weights, values[at.vertices[0]], values[at.vertices[1]],
-                                                    values[at.vertices[2]]));
-      });
-    }
-  }
-
-private:
-  template <class F>
-  void for_each(const F& f)
-  {
-    for_each(f, std::index_sequence_for<Maps...>());
-  }
-
-  template <class F, std::size_t... i>
-  void for_each(const F& f, std::index_sequence<i...>)
-  {
-    (f(std::get<i>(maps_), std::get<i>(values_)), ...);
-  }
-
-  std::tuple<Maps...> maps_;
-  std::tuple<std::vector<typename boost::property_traits<Maps>::value_type>...> values_;
-};
-
-} // namespace internal
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_ADAPTATION_DRIVER_ATTRIBUTE_TRANSFER_H
+#endif // CGAL_SURFACE_MESH_ADAPTATION_DRIVER_ATTRIBUTE_INTERPOLATOR_H

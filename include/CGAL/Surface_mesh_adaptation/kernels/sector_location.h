@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where the corners of an adapted mesh are in the faces of the input: at features, where one vertex belongs to several
+// smooth sectors, on the side of the face whose corner it is.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SECTOR_LOCATION_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SECTOR_LOCATION_H
+
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Reference_surface.h>
+
+#include <cstddef>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// The feature halfedge that bounds the smooth sector of the halfedge `h` at its source, clockwise; `no_index` if there is
+/// none.
+inline Index first_of_sector(const Mesh_view& mesh, Index h)
+{
+  for (Index g = h; !mesh.is_feature(g);) {
+    g = mesh.rotated_cw(g);
+    if (g == h) return no_index;
+    if (mesh.is_feature(g)) return g;
+  }
+  return h;
+}
+
+/// The location of the source of `h` in a face of the reference on the side of the face of `h`, its first one clockwise: on an
+/// edge or at a corner of that where the vertex is on a feature.
+template <class Surface>
+Location location_in_sector(const Surface& surface, Index h)
+{
+  const Mesh_view& mesh = surface.mesh;
+  const auto& reference = surface.reference();
+  const Index v = mesh.source(h);
+  const Location& l = surface.locations[v];
+  if (l.kind == Vertex_class::smooth) return l;
+  const Index g = first_of_sector(mesh, h);
+  if (g == no_index) return location_on_edge(reference.mesh.outgoing[l.cell], 0);
+  const Feature_curve& c = reference.features.curves[mesh.curve[g]];
+  const auto arc = reference.arc(mesh.curve[g], l, surface.locations[mesh.target(g)]);
+  const bool is_forward = arc.second > arc.first;
+  const bool is_corner = l.kind == Vertex_class::corner;
+  const std::size_t i = !is_corner ? c.segment(l.u) : is_forward ? 0 : c.vertices.size() - 2;
+  const double t = !is_corner ? c.parameter(i, l.u) : is_forward ? 0 : 1;
+  const Index a = c.vertices[i], b = c.vertices[i + 1];
+  return is_forward ? location_on_edge(reference.mesh.halfedge(a, b), t)
+                    : location_on_edge(reference.mesh.halfedge(b, a), 1 - t);
+}
+
+/// The face of the reference below the centroid of the face `f`, found by walks from its corners within their sector.
+template <class Surface>
+Index face_below(const Surface& surface, Index f)
+{
+  constexpr double inwards = 1e-3, kept = 1 - 3 * inwards; // off the edges of faces, where all ways are open
+  constexpr double precision = 0.01;                       // of the distance of a corner from the centroid
+  const Mesh_view& mesh = surface.mesh;
+  const auto& reference = surface.reference();
+  const auto point = [&](Index i) { return surface.points[mesh.corner[3 * std::size_t(f) + i]]; };
+  const Vector_3 centroid = (point(0) + point(1) + point(2)) / 3;
+  Index best = no_index;
+  double least = 0;
+  for (Index i = 0; i < 3; ++i) {
+    Location start = location_in_sector(surface, 3 * f + i);
+    start.u = kept * start.u + inwards;
+    start.v = kept * start.v + inwards;
+    const auto found = reference.locate({start, reference.evaluate(start)}, centroid,
+                                        precision * (point(i) - centroid).norm());
+    const double distance = (found.point.position - centroid).squaredNorm();
+    if (best != no_index && distance >= least) continue;
+    best = found.location.cell;
+    least = distance;
+  }
+  return best;
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SECTOR_LOCATION_H
