@@ -26,21 +26,22 @@
 namespace adapt_mesh {
 
 /// Reads what `medit` says of the elements of `result`, which was made of it. Protects the edges of required triangles.
-/// Edges with a reference are constrained.
-inline void put_content(const SMA::Medit_mesh& medit, const SMA::Repair_report& report, Constrained_mesh& result)
+/// Edges with a reference are constrained. \param place the number of the place of each point of `medit`
+inline void put_content(const SMA::Medit_mesh& medit, const std::vector<std::uint32_t>& place,
+                        const SMA::Repair_report& report, Constrained_mesh& result)
 {
   Mesh& mesh = result.mesh;
   result.medit = std::make_unique<Medit_content>(mesh);
   Medit_content& content = *result.medit;
   std::vector<bool> is_corner(medit.points.size(), false), is_required(medit.triangles.size(), false);
-  for (const std::uint32_t v : medit.corners) is_corner[v] = true;
+  for (const std::uint32_t v : medit.corners) is_corner[place[v]] = true;
   for (const std::uint32_t t : medit.required_triangles) is_required[t] = true;
-  std::vector<Vertex> vertex_of_point(medit.points.size(), Mesh::null_vertex());
+  std::vector<Vertex> vertex_of_place(medit.points.size(), Mesh::null_vertex());
   for (const Vertex v : mesh.vertices()) {
     const std::size_t p = report.point_of_vertex[v];
-    vertex_of_point[p] = v;
+    vertex_of_place[place[p]] = v;
     content.reference[v] = medit.point_references[p];
-    content.is_corner[v] = is_corner[p];
+    content.is_corner[v] = is_corner[place[p]];
     content.number[v] = unsigned(v) + 1;
   }
   content.has_required_triangles = !medit.required_triangles.empty();
@@ -50,9 +51,8 @@ inline void put_content(const SMA::Medit_mesh& medit, const SMA::Repair_report& 
     content.is_required[f] = 1;
     for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) result.edge_is_protected[mesh.edge(h)] = true;
   }
-  std::vector<int> reference_of_required(medit.edges.size(), 0);
   const auto ends = [&](std::uint32_t e) {
-    return std::array<Vertex, 2>{vertex_of_point[medit.edges[e][0]], vertex_of_point[medit.edges[e][1]]};
+    return std::array<Vertex, 2>{vertex_of_place[place[medit.edges[e][0]]], vertex_of_place[place[medit.edges[e][1]]]};
   };
   for (std::uint32_t e = 0; e < medit.edges.size(); ++e) {
     const auto [a, b] = ends(e);

@@ -154,11 +154,12 @@ void parse_medit(const std::string& text, const std::string& file, Constrained_m
   if (!options.references) forget_references(medit);
   options.weld = options.weld && options.repair;
   Polygon_soup soup = polygon_soup(medit);
-  Medit_marks marks(medit, places(soup.points, options.weld));
+  const std::vector<std::uint32_t> place = places(soup.points, options.weld);
+  Medit_marks marks(medit, place);
   SMA::Repair_report report = build(soup, options, result);
   marks.put_on(result, report.point_of_vertex);
   Soup_content(soup, {}, report).put_on(result, options.references);
-  put_content(medit, report, result);
+  put_content(medit, place, report, result);
   if (has_volume(medit)) report.isolated_points = SMA::Soup_defect();
   Findings found(report);
   const SMA::Soup_defect edges = marks.stray_edges(), vertices = marks.stray_vertices();
