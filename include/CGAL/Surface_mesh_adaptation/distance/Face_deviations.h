@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Reference_surface.h>
+#include <CGAL/Surface_mesh_adaptation/surface/sector_location.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>
@@ -107,11 +108,11 @@ private:
   {
     const Vector_3 centroid = (point(f, 0) + point(f, 1) + point(f, 2)) / 3;
     const double precision = share_of_length * (point(f, 0) - centroid).norm();
-    const Located_point start = surface_.reference().locate(start_at(f, 0, centroid), centroid, precision);
+    const Located_point start = surface_.reference().locate(start_at(f, 0), centroid, precision);
     const auto distance_of = [&](const Vector_3& p) {
       double d = distance(surface_.reference().locate(start, p, precision), p);
       for (std::size_t i = 0; i < 3 && d > allowed_; ++i)
-        d = (std::min)(d, distance(surface_.reference().locate(start_at(f, i, p), p, precision), p));
+        d = (std::min)(d, distance(surface_.reference().locate(start_at(f, i), p, precision), p));
       return d;
     };
     double result = distance_of(centroid);
@@ -131,13 +132,11 @@ private:
   }
 
   /// Next to corner `i` of face `f`.
-  Located_point start_at(Index f, std::size_t i, const Vector_3& target) const
+  Located_point start_at(Index f, std::size_t i) const
   {
     const Index v = corner(f, i);
-    if (surface_.vertex_class(v) == Vertex_class::smooth)
-      return {surface_.locations[v], {surface_.points[v], surface_.normals[v]}};
-    const Location l = surface_.reference().smooth_location_near(surface_.locations[v], target);
-    return {l, surface_.reference().evaluate(l)};
+    if (surface_.vertex_class(v) != Vertex_class::smooth) return start_in_sector(surface_, Index(3 * std::size_t(f) + i));
+    return {surface_.locations[v], {surface_.points[v], surface_.normals[v]}};
   }
 
   double distance(const Located_point& nearest, const Vector_3& p) const

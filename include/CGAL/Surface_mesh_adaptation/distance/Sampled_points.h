@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/closest_point.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Reference_surface.h>
+#include <CGAL/Surface_mesh_adaptation/surface/sector_location.h>
 
 #include <algorithm>
 #include <array>
@@ -33,8 +34,7 @@ public:
     weights_.resize(mesh_.number_of_faces());
     for_each_index(execution, mesh_.number_of_faces(), [&](std::size_t f) {
       if (is_stopped(execution)) return;
-      const Triangle_points p = corners(Index(f));
-      for (std::size_t i = 0; i < places; ++i) locations_[places * f + i] = start(Index(f), i, place(p, i));
+      for (std::size_t i = 0; i < places; ++i) locations_[places * f + i] = start(Index(f), i);
     }, heavy_chunk_length);
     sample(execution);
   }
@@ -104,13 +104,13 @@ private:
     return i < 3 ? (p[i] + centroid) / 2 : centroid;
   }
 
-  /// Where the first walk to `place` starts: at the next corner that is smooth.
-  Location start(Index f, std::size_t i, const Vector_3& place) const
+  /// Where the first walk to place `i` starts: at the next corner that is smooth.
+  Location start(Index f, std::size_t i) const
   {
     const auto corner = [&](std::size_t k) { return mesh_.corner[3 * std::size_t(f) + (i + k) % 3]; };
     for (std::size_t k = 0; k < 3; ++k)
       if (surface_.vertex_class(corner(k)) == Vertex_class::smooth) return surface_.locations[corner(k)];
-    return surface_.reference().smooth_location_near(surface_.locations[corner(0)], place);
+    return start_in_sector(surface_, Index(3 * std::size_t(f) + i % 3)).location;
   }
 
   Triangle_points corners(Index f) const

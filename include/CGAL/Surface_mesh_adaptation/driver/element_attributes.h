@@ -10,7 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/driver/saved_values.h>
 #include <CGAL/Surface_mesh_adaptation/driver/unpack_parameters.h>
 #include <CGAL/Surface_mesh_adaptation/execution/Buffer.h>
-#include <CGAL/Surface_mesh_adaptation/kernels/sector_location.h>
+#include <CGAL/Surface_mesh_adaptation/surface/sector_location.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 

@@ -13,6 +13,7 @@
 #include <CGAL/Surface_mesh_adaptation/fields/expected_size.h>
 #include <CGAL/Surface_mesh_adaptation/fields/tightened_metric.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/alignment.h>
+#include <CGAL/Surface_mesh_adaptation/surface/sector_location.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/metric/metric.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Reference_surface.h>
@@ -196,39 +197,13 @@ public:
   }
 
   /// Where an edge is split: the middle of its arc on a feature curve, else the point of the surface next to about the
-  /// middle of the edge, reached from a neighbouring vertex in the same smooth sector. Where the walk from one of them
-  /// ends at a feature that lies in between, the next one is tried; at a thin face, all faces around those on features.
+  /// middle of the edge.
   Placed_vertex<Metric> middle(Index h) const
   {
     const Index a = (std::min)(mesh.source(h), mesh.target(h)), b = (std::max)(mesh.source(h), mesh.target(h));
-    if (mesh.is_feature(h)) {
-      const auto arc = reference_->arc(mesh.curve[h], locations[a], locations[b]);
-      return place(reference_->on_curve(mesh.curve[h], 0.5 * (arc.first + arc.second)));
-    }
-    const Vector_3 target = points[a] + split_position(a, b, h) * (points[b] - points[a]);
-    const double length = (points[b] - points[a]).norm();
-    typename Reference::Located_point best;
-    double best_distance = -1;
-    const auto try_from = [&](const typename Reference::Located_point& start) {
-      const auto x = reference_->locate(start, target, split_precision * length);
-      const double distance = (x.point.position - target).norm();
-      if (best_distance >= 0 && distance >= best_distance) return;
-      best = x;
-      best_distance = distance;
-    };
-    for (Index v : {a, b, mesh.apex(h), mesh.apex(mesh.twin[h])})
-      if (vertex_class(v) == Vertex_class::smooth && !(best_distance >= 0 && best_distance <= split_distance * length))
-        try_from({locations[v], {points[v], normals[v]}});
-    const auto try_from_location = [&](const Location& start) { try_from({start, reference_->evaluate(start)}); };
-    if (best_distance < 0) try_from_location(reference_->smooth_location_near(locations[a], target));
-    const double height = least_height_at(h);
-    if (height < thin_height * length && best_distance > split_distance * height)
-      for (Index v : {a, b, mesh.apex(h), mesh.apex(mesh.twin[h])})
-        if (vertex_class(v) != Vertex_class::smooth)
-          reference_->for_each_location_near(locations[v], target, [&](const Location& start) {
-            if (best_distance > split_distance * height) try_from_location(start);
-          });
-    return place(best.location, best.point);
+    if (!mesh.is_feature(h)) return middle_in_sector(a == mesh.source(h) ? h : mesh.twin[h]);
+    const auto arc = reference_->arc(mesh.curve[h], locations[a], locations[b]);
+    return place(reference_->on_curve(mesh.curve[h], 0.5 * (arc.first + arc.second)));
   }
 
   /// The point of the surface where a vertex with the location `l` is put.
@@ -399,12 +374,32 @@ private:
     return n > 0 && others > 0 ? sum / double(n) : 0;
   }
 
-  /// The lesser height above the edge of `h`, which is not on the boundary, of the two faces there.
-  double least_height_at(Index h) const
+  /// The point next to the middle of the edge of `h`, found by a walk from its ends or the vertices beside it, first from
+  /// those that are on no feature; from others within the sector of the edge. Where a walk ends at a feature that lies in
+  /// between, the next one is tried, and the best of all taken.
+  Placed_vertex<Metric> middle_in_sector(Index h) const
   {
-    const Vector_3 &p = points[mesh.source(h)], e = points[mesh.target(h)] - p;
-    const auto double_area = [&](Index apex) { return e.cross(points[apex] - p).norm(); };
-    return (std::min)(double_area(mesh.apex(h)), double_area(mesh.apex(mesh.twin[h]))) / e.norm();
+    const Index t = mesh.twin[h];
+    const Vector_3 &a = points[mesh.source(h)], &b = points[mesh.target(h)];
+    const Vector_3 target = a + split_position(mesh.source(h), mesh.target(h), h) * (b - a);
+    const double length = (b - a).norm();
+    typename Reference::Located_point best;
+    double best_distance = std::numeric_limits<double>::infinity();
+    const auto try_from = [&](const typename Reference::Located_point& start) {
+      const auto x = reference_->locate(start, target, split_precision * length);
+      const double distance = (x.point.position - target).norm();
+      if (distance >= best_distance) return;
+      best = x;
+      best_distance = distance;
+    };
+    for (const bool on_features : {false, true})
+      for (const Index g : {h, t, Mesh_view::previous(h), Mesh_view::previous(t)}) {
+        const Index v = mesh.source(g);
+        if ((vertex_class(v) != Vertex_class::smooth) != on_features || best_distance <= split_distance * length) continue;
+        if (on_features) try_from(start_in_sector(*this, g));
+        else try_from({locations[v], {points[v], normals[v]}});
+      }
+    return place(best.location, best.point);
   }
 
   /// In which ratio the edge of `h`, from `a` to `b`, is split: in halves, but for the diagonals of a lattice of
@@ -454,7 +449,6 @@ private:
   static constexpr double lattice_quality = 0.87; // of a right-angled face: .866
   static constexpr double max_shift = 0.2;        // of a split, in lengths of the edge
   static constexpr double split_precision = 0.02; // of the edge: later moves undo the rest
-  static constexpr double thin_height = 0.1;      // of a face, in lengths of the edge: the next feature is near
   static constexpr double split_distance = 0.2;   // of the edge: more means that the walk did not get there
 
   static constexpr double share_of_bulge = 0.25;  // of the tolerance: the rest is for the faces between the points

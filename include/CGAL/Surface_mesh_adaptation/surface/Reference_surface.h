@@ -214,35 +214,6 @@ public:
     return x;
   }
 
-  /// Calls `f(start)` for a location in each face around a curve or corner location, from which to walk to `target`: about
-  /// the closest to it, but inside of the face, where all ways are open.
-  template <class F>
-  void for_each_location_near(const Location& l, const Vector_3& target, const F& f) const
-  {
-    for_each_incident_face(l, [&](Index face) {
-      const Location x = closest_location_in_face(face, target);
-      constexpr double inwards = 1e-3, w = 1 - 3 * inwards;
-      f(Location{Vertex_class::smooth, face, w * x.u + inwards, w * x.v + inwards});
-    });
-  }
-
-  /// A smooth location in the faces around a curve or corner location, from which to walk to `target`: the closest
-  /// point to `target` among those faces.
-  Location smooth_location_near(const Location& l, const Vector_3& target) const
-  {
-    Location best;
-    double best_distance = -1;
-    for_each_incident_face(l, [&](Index f) {
-      const Location candidate = closest_location_in_face(f, target);
-      const double distance = (flat_point(candidate) - target).squaredNorm();
-      if (best_distance < 0 || distance < best_distance) {
-        best_distance = distance;
-        best = candidate;
-      }
-    });
-    return best;
-  }
-
   /// Arc lengths on `curve` of two adjacent vertices on it: those of the ends of the shorter arc between them, so
   /// that the second may exceed the length of the curve or be negative on a closed curve.
   std::pair<double, double> arc(Index curve, const Location& a, const Location& b) const
@@ -441,29 +412,6 @@ private:
     const bool first = c.vertices.front() == a.cell, last = c.vertices.back() == a.cell;
     if (first && last) return b.kind == Vertex_class::curve && b.u > c.length() / 2 ? c.length() : 0;
     return last ? c.length() : 0;
-  }
-
-  template <class F>
-  void for_each_incident_face(const Location& l, const F& f) const
-  {
-    const Interpolation where = interpolation(l);
-    for (int i = 0; i < 3; ++i) {
-      if (i > 0 && where.vertices[i] == where.vertices[i - 1]) continue;
-      mesh.for_each_outgoing(where.vertices[i], [&](Index h) { f(Mesh_view::face(h)); });
-    }
-  }
-
-  /// Projection onto the plane of `f` with negative barycentric coordinates cut off: exact inside, and good enough
-  /// outside to start a walk.
-  Location closest_location_in_face(Index f, const Vector_3& target) const
-  {
-    const Face_frame frame = face_frame(f);
-    if (!(frame.squared_double_area > 0)) return {Vertex_class::smooth, f, 1.0 / 3, 1.0 / 3};
-    const Vector_3 d = target - points[mesh.corner[3 * std::size_t(f)]];
-    const double u = (std::max)(0.0, d.cross(frame.e2).dot(frame.normal) / frame.squared_double_area);
-    const double v = (std::max)(0.0, frame.e1.cross(d).dot(frame.normal) / frame.squared_double_area);
-    const double sum = (std::max)(1.0, u + v);
-    return {Vertex_class::smooth, f, u / sum, v / sum};
   }
 
   internal::Given_jets given_;

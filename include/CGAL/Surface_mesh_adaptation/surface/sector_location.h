@@ -3,8 +3,8 @@
 // Where the corners of an adapted mesh are in the faces of the input: at features, where one vertex belongs to several
 // smooth sectors, on the side of the face whose corner it is.
 
-#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SECTOR_LOCATION_H
-#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SECTOR_LOCATION_H
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_SECTOR_LOCATION_H
+#define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_SECTOR_LOCATION_H
 
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
@@ -50,12 +50,22 @@ Location location_in_sector(const Surface& surface, Index h)
                     : location_on_edge(reference.mesh.halfedge(b, a), 1 - t);
 }
 
+/// The same as a start of walks: a little inside of the face, where all ways are open.
+template <class Surface>
+auto start_in_sector(const Surface& surface, Index h)
+{
+  constexpr double inwards = 1e-3, kept = 1 - 3 * inwards;
+  Location l = location_in_sector(surface, h);
+  l.u = kept * l.u + inwards;
+  l.v = kept * l.v + inwards;
+  return typename Surface::Reference::Located_point{l, surface.reference().evaluate(l)};
+}
+
 /// The face of the reference below the centroid of the face `f`, found by walks from its corners within their sector.
 template <class Surface>
 Index face_below(const Surface& surface, Index f)
 {
-  constexpr double inwards = 1e-3, kept = 1 - 3 * inwards; // off the edges of faces, where all ways are open
-  constexpr double precision = 0.01;                       // of the distance of a corner from the centroid
+  constexpr double precision = 0.01; // of the distance of a corner from the centroid
   const Mesh_view& mesh = surface.mesh;
   const auto& reference = surface.reference();
   const auto point = [&](Index i) { return surface.points[mesh.corner[3 * std::size_t(f) + i]]; };
@@ -63,11 +73,8 @@ Index face_below(const Surface& surface, Index f)
   Index best = no_index;
   double least = 0;
   for (Index i = 0; i < 3; ++i) {
-    Location start = location_in_sector(surface, 3 * f + i);
-    start.u = kept * start.u + inwards;
-    start.v = kept * start.v + inwards;
-    const auto found = reference.locate({start, reference.evaluate(start)}, centroid,
-                                        precision * (point(i) - centroid).norm());
+    const auto found =
+      reference.locate(start_in_sector(surface, 3 * f + i), centroid, precision * (point(i) - centroid).norm());
     const double distance = (found.point.position - centroid).squaredNorm();
     if (best != no_index && distance >= least) continue;
     best = found.location.cell;
@@ -79,4 +86,4 @@ Index face_below(const Surface& surface, Index f)
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 
-#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SECTOR_LOCATION_H
+#endif // CGAL_SURFACE_MESH_ADAPTATION_SURFACE_SECTOR_LOCATION_H
