@@ -9,11 +9,13 @@ surface, in which an edge `e` is to have the length `sqrt(e^T M e) = 1`. Besides
 `ReadablePropertyMap` with the vertex descriptor of the mesh as key and a size (convertible to `double`) or a
 `Metric_tensor_3` as value is a model.
 
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Uniform_metric_field`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Curvature_metric_field`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Solution_metric_field<VertexScalarMap>`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Analytic_metric_field<Function>`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Intersection_metric_field<MetricFields...>`
+\cgalHasModelsBegin
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Uniform_metric_field}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Curvature_metric_field}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Solution_metric_field<VertexScalarMap>}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Analytic_metric_field<Function>}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Intersection_metric_field<MetricFields...>}
+\cgalHasModelsEnd
 */
 class MetricField
 {

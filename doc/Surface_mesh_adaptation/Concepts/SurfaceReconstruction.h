@@ -8,10 +8,12 @@ The surface between the vertices of the input. A patch depends on its own face o
 operators of its corners, and the tangents of the feature curves on its edges. All functions are static, and called
 concurrently.
 
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Flat_reconstruction`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::PN_triangle_reconstruction`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Gregory_reconstruction`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Walton_meek_reconstruction`
+\cgalHasModelsBegin
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Flat_reconstruction}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::PN_triangle_reconstruction}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Gregory_reconstruction}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Walton_meek_reconstruction}
+\cgalHasModelsEnd
 */
 class SurfaceReconstruction
 {

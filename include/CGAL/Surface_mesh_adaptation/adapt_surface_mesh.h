@@ -20,6 +20,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 namespace internal {
 
@@ -239,6 +241,7 @@ Adaptation_report adapt_surface_mesh(TriangleMesh& mesh, const MetricField& fiel
   return adapt_surface_mesh(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

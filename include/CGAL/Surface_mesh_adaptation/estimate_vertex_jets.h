@@ -7,6 +7,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 /*!
 Writes the normals and shape operators that an adaptation of `mesh` would estimate into property maps. Adaptations that
@@ -47,6 +49,7 @@ void estimate_vertex_jets(const TriangleMesh& mesh, const NamedParameters& np)
   estimate_vertex_jets(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

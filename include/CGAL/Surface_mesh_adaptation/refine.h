@@ -8,6 +8,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 /*!
 Splits the edges that are longer than `sqrt 2` in the metric, until none is left that can be split without turning a
@@ -39,6 +41,7 @@ std::size_t refine(TriangleMesh& mesh, const MetricField& field,
   return refine(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -8,6 +8,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 /*!
 Takes vertices away and puts others in where that brings the numbers of faces around vertices nearer to those of a regular
@@ -41,6 +43,7 @@ std::size_t regularize(TriangleMesh& mesh, const MetricField& field,
   return regularize(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

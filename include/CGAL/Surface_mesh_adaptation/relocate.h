@@ -8,6 +8,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 /*!
 Moves vertices on the surface to improve the faces around them (paper, section 3).
@@ -52,6 +54,7 @@ std::size_t relocate(TriangleMesh& mesh, const MetricField& field,
   return relocate(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -11,6 +11,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 /// Long faces are good ones where the surface bends in one direction only.
 constexpr double min_quality_of_approximation = 0.02;
@@ -96,6 +98,7 @@ std::size_t simplify(TriangleMesh& mesh, const MetricField& field,
   return simplify(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

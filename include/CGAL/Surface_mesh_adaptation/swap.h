@@ -8,6 +8,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 /*!
 Swaps edges to improve the worst quality of their two faces, and the degrees of their vertices (paper, section 5).
@@ -38,6 +40,7 @@ std::size_t swap(TriangleMesh& mesh, const MetricField& field,
   return swap(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

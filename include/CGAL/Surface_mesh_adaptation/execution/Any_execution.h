@@ -33,7 +33,7 @@ private:
 
 /// Any execution policy behind one type, so that the kernels are compiled once for all of them. A task is a chunk of
 /// thousands of elements: the indirect call costs nothing.
-/// \cgalModels `AdaptationExecution`
+/// \cgalModels{AdaptationExecution}
 class Any_execution
 {
 public:
