@@ -5,6 +5,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_visitor.h>
 #include <CGAL/Surface_mesh_adaptation/driver/Adaptation_driver.h>
+#include <CGAL/Surface_mesh_adaptation/driver/check_models.h>
 #include <CGAL/Surface_mesh_adaptation/driver/in_place.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
@@ -71,6 +72,7 @@ template <class TriangleMesh, class MetricField, class NamedParameters>
 Adaptation_report adapt(const Any_execution& execution, TriangleMesh& mesh, const MetricField& field,
                         const NamedParameters& np)
 {
+  static_assert(check_models<TriangleMesh, MetricField, NamedParameters>());
   const std::size_t rounds = choose(np, CGAL::internal_np::number_of_iterations, default_number_of_rounds);
   const double shape_weight = shape_weight_of_fit(np);
   Adaptation_visitor nothing;

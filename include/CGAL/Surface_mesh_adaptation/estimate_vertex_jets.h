@@ -3,6 +3,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_ESTIMATE_VERTEX_JETS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_ESTIMATE_VERTEX_JETS_H
 
+#include <CGAL/Surface_mesh_adaptation/driver/check_models.h>
 #include <CGAL/Surface_mesh_adaptation/driver/in_place.h>
 
 namespace CGAL {
@@ -30,6 +31,7 @@ template <class Execution, class TriangleMesh, class NamedParameters>
 auto estimate_vertex_jets(const Execution& execution, const TriangleMesh& mesh, const NamedParameters& np)
   -> decltype(execution.concurrency(), void())
 {
+  static_assert(internal::check_reading<TriangleMesh, NamedParameters>());
   using Jets = internal::Carried_jets<NamedParameters>;
   static_assert(Jets::has_normals || Jets::has_shape_operators, "there is no map to write to");
   const internal::Any_execution policy(execution);

@@ -159,6 +159,20 @@ template <> struct Execution_of<CGAL::Parallel_tag> { using type = OpenMP_execut
 template <class T, class = void> constexpr bool is_execution = false;
 template <class T> constexpr bool is_execution<T, std::void_t<decltype(std::declval<const T&>().concurrency())>> = true;
 
+/// A task as it could be.
+struct Any_task
+{
+  void operator()(std::size_t) const {}
+};
+
+/// Whether `T` is a model of `AdaptationExecution`.
+template <class T, class = void> constexpr bool is_adaptation_execution = false;
+template <class T>
+constexpr bool is_adaptation_execution<T, std::void_t<
+  decltype(std::declval<const T&>().run(std::size_t(), std::declval<const Any_task&>()))>> =
+  std::is_convertible_v<decltype(std::declval<const T&>().concurrency()), int> &&
+  std::is_convertible_v<decltype(T::name), const char*> && std::is_copy_constructible_v<T>;
+
 } // namespace internal
 
 /// Whether a run is to stop and what its sweeps have not begun may be left out: never, for a policy of a user.
