@@ -100,8 +100,9 @@ The result is the same to the last bit for every execution policy and number of 
 step at the end: if anything throws, it is as it was.
 
 \param execution how to run; see `execution.h`. The overload without it takes a `ConcurrencyTag` or a policy type.
-\param mesh a model of `MutableFaceGraph` with triangles as faces: an orientable 2-manifold, closed or with boundary, of
-       any number of components. Its elements are renumbered; of its property maps only the vertex points and those passed
+\param mesh a model of `MutableFaceGraph` and `FaceListGraph` that lists its elements in the order in which they were
+       added once it is cleared, with triangles as faces: an orientable 2-manifold, closed or with boundary, of any
+       number of components. Its elements are renumbered; of its property maps only the vertex points and those passed
        below are meaningful afterwards. Coordinates are converted to `double`.
 \param field what to adapt to, a model of `MetricField`: `Uniform_metric_field`, `Curvature_metric_field`,
        `Solution_metric_field`, `Analytic_metric_field`, an `Intersection_metric_field` of several, or a property map

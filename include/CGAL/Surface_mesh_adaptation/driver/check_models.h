@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Says in a sentence, where an entry point is compiled, which of its arguments is no model of what it has to be. Without it
-// the compiler would say so from deep inside. Only signatures are looked at, which takes no time to compile.
+// Says in a sentence, where an entry point is compiled, which of its arguments is no model of what it has to be: the
+// compiler would say so from deep inside. Only signatures are looked at, which takes no time to compile.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_DRIVER_CHECK_MODELS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_DRIVER_CHECK_MODELS_H
@@ -12,7 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Patch.h>
 
-#include <CGAL/number_utils.h>
+#include <CGAL/Real_embeddable_traits.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -79,17 +79,19 @@ template <class Map, class Key>
 constexpr bool is_read_write<Map, Key, std::void_t<typename boost::property_traits<Map>::value_type>> =
   is_readable<Map, Key> && is_writable_with<Map, Key, typename boost::property_traits<Map>::value_type>;
 
+template <class T>
+constexpr bool is_number = CGAL::Real_embeddable_traits<std::decay_t<T>>::Is_real_embeddable::value;
+
 /// Whether `Map` has points, or vectors, by their coordinates.
 template <class Map, class Key, class = void> constexpr bool has_coordinates = false;
 template <class Map, class Key>
-constexpr bool has_coordinates<Map, Key,
-                               std::void_t<decltype(CGAL::to_double(get(arg<Map>(), arg<Key>()).x()))>> = true;
+constexpr bool has_coordinates<Map, Key, std::void_t<decltype(get(arg<Map>(), arg<Key>()).x())>> =
+  is_number<decltype(get(arg<Map>(), arg<Key>()).x())>;
 
 // Metric fields
 
-template <class Value, class = void> constexpr bool is_metric_value = std::is_convertible_v<Value, Metric_tensor_3>;
 template <class Value>
-constexpr bool is_metric_value<Value, std::void_t<decltype(CGAL::to_double(arg<std::decay_t<Value>>()))>> = true;
+constexpr bool is_metric_value = is_number<Value> || std::is_same_v<std::decay_t<Value>, Metric_tensor_3>;
 
 template <class Map, class Graph, class = void> constexpr bool is_metric_map = false;
 template <class Map, class Graph>
