@@ -247,7 +247,8 @@ struct boost::graph_traits<archetypes::Graph>
   using degree_size_type = std::size_t;
   using directed_category = undirected_tag;
   using edge_parallel_category = disallow_parallel_edge_tag;
-  struct traversal_category : virtual bidirectional_graph_tag, virtual vertex_list_graph_tag, virtual edge_list_graph_tag
+  struct traversal_category
+    : virtual bidirectional_graph_tag, virtual vertex_list_graph_tag, virtual edge_list_graph_tag
   {};
 
   static vertex_descriptor null_vertex() { return Graph::null_vertex(); }

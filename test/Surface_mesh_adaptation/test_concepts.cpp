@@ -94,8 +94,9 @@ TEST(Concepts, archetypes_are_refined)
 {
   Cube cube;
   const std::size_t before = num_vertices(cube.graph);
-  const std::size_t splits = SMA::refine(Execution::make(), cube.graph, Constant<Vertex, double>(0.4),
-                                         parameters::vertex_point_map(cube.points).surface_reconstruction(Reconstruction()));
+  const std::size_t splits = SMA::refine(
+    Execution::make(), cube.graph, Constant<Vertex, double>(0.4),
+    parameters::vertex_point_map(cube.points).surface_reconstruction(Reconstruction()));
   EXPECT_GT(splits, 0u);
   EXPECT_EQ(num_vertices(cube.graph), before + splits);
   EXPECT_NEAR(cube.area(), 24, 1e-9);
