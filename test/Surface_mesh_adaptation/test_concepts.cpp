@@ -114,6 +114,23 @@ TEST(Concepts, archetypes_have_jets)
 namespace internal = SMA::internal;
 struct Nothing
 {};
+struct Nameless_execution
+{
+  int concurrency() const { return 1; }
+  template <class Task>
+  void run(std::size_t, const Task&) const
+  {}
+};
+struct Endless_visitor
+{
+  void round_begins(std::size_t, std::size_t) {}
+  void kernel_done(const SMA::Kernel_report&) {}
+  void round_done(std::size_t, const SMA::Mesh_statistics&) {}
+};
+struct Curveless_reconstruction
+{
+  static SMA::Surface_point evaluate(const SMA::Patch&, double, double) { return {}; }
+};
 using Points = Map<Vertex, Kernel::Point_3>;
 using Formula = SMA::Metric_tensor_3 (*)(const SMA::Vector_3&);
 
@@ -138,12 +155,15 @@ static_assert(!internal::is_metric_field<SMA::Intersection_metric_field<SMA::Uni
 static_assert(internal::is_adaptation_execution<Execution>);
 static_assert(internal::is_adaptation_execution<SMA::Sequential_execution>);
 static_assert(!internal::is_adaptation_execution<Nothing>);
+static_assert(!internal::is_adaptation_execution<Nameless_execution>);
 static_assert(internal::is_adaptation_visitor<std::reference_wrapper<Visitor>>);
 static_assert(internal::is_adaptation_visitor<SMA::Adaptation_visitor>);
 static_assert(!internal::is_adaptation_visitor<Nothing>);
+static_assert(!internal::is_adaptation_visitor<Endless_visitor>);
 static_assert(internal::is_surface_reconstruction<Reconstruction>);
 static_assert(internal::is_surface_reconstruction<SMA::Gregory_reconstruction>);
 static_assert(!internal::is_surface_reconstruction<Nothing>);
+static_assert(!internal::is_surface_reconstruction<Curveless_reconstruction>);
 
 static_assert(internal::has_coordinates<Points, Vertex>);
 static_assert(!internal::has_coordinates<Constant<Vertex, double>, Vertex>);

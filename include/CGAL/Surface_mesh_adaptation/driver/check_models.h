@@ -128,8 +128,8 @@ template <class T>
 constexpr bool is_adaptation_visitor<T, std::void_t<
   decltype(mutable_arg<T>().round_begins(std::size_t(), std::size_t())),
   decltype(mutable_arg<T>().kernel_done(arg<Kernel_report>())),
-  decltype(mutable_arg<T>().round_done(std::size_t(), arg<Mesh_statistics>()))>> =
-  std::is_convertible_v<decltype(mutable_arg<T>().go_on()), bool>;
+  decltype(mutable_arg<T>().round_done(std::size_t(), arg<Mesh_statistics>())),
+  decltype(bool(mutable_arg<T>().go_on()))>> = true;
 template <class T> constexpr bool is_adaptation_visitor<std::reference_wrapper<T>> = is_adaptation_visitor<T>;
 
 template <class T, class Key> constexpr bool are_read_write_maps = false;

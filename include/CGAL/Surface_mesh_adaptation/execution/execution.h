@@ -169,9 +169,9 @@ struct Any_task
 template <class T, class = void> constexpr bool is_adaptation_execution = false;
 template <class T>
 constexpr bool is_adaptation_execution<T, std::void_t<
+  decltype(int(std::declval<const T&>().concurrency())), decltype(static_cast<const char*>(T::name)),
   decltype(std::declval<const T&>().run(std::size_t(), std::declval<const Any_task&>()))>> =
-  std::is_convertible_v<decltype(std::declval<const T&>().concurrency()), int> &&
-  std::is_convertible_v<decltype(T::name), const char*> && std::is_copy_constructible_v<T>;
+  std::is_copy_constructible_v<T>;
 
 } // namespace internal
 
