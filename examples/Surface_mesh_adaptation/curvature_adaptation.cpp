@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Sizes that follow the curvature, and aim at a thousandth of the size of the part between the surface and the faces; that
-// the result is within five thousandths of the input is certified. Ridges are detected, kept, and marked on the result.
+// Sizes that follow the curvature, and aim at a thousandth of the size of the part between the surface and the faces;
+// that the result is within five thousandths of the input is certified. Ridges are detected, kept, and marked on it.
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
 

@@ -8,8 +8,8 @@ The surface between the vertices of the input. A patch depends on its own face o
 operators of its corners, and the tangents of the feature curves on its edges. All functions are static, and called
 concurrently: of a model that is passed as a parameter, its type alone counts.
 
-A model may have a type `Prepared_patch`, made from a `Patch`, with a member `evaluate(u, v)` that returns what the static
-function does: it is made once for many points.
+A model may have a type `Prepared_patch`, made from a `Patch`, with a member `evaluate(u, v)` that returns what the
+static function does: it is made once for many points.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Surface_mesh_adaptation::Flat_reconstruction}

@@ -31,8 +31,8 @@ namespace Surface_mesh_adaptation {
 using Attribute_weights = std::array<double, 3>;
 
 /// How the values at three vertices combine to the value between them: linearly; integers, `bool` and enumerations are
-/// those of the nearest vertex. There are specialisations for points, colours and `std::array`s. Specialise it for types
-/// that know no sum, and no product with a `double`.
+/// those of the nearest vertex. There are specialisations for points, colours and `std::array`s. Specialise it for
+/// types that know no sum, and no product with a `double`.
 template <class Value, class = void>
 struct Attribute_interpolator
 {
