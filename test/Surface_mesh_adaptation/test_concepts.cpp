@@ -8,6 +8,10 @@
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
 #include <CGAL/Surface_mesh_adaptation/estimate_vertex_jets.h>
 #include <CGAL/Surface_mesh_adaptation/refine.h>
+#include <CGAL/Surface_mesh_adaptation/regularize.h>
+#include <CGAL/Surface_mesh_adaptation/relocate.h>
+#include <CGAL/Surface_mesh_adaptation/simplify.h>
+#include <CGAL/Surface_mesh_adaptation/swap.h>
 
 #include <CGAL/boost/graph/Euler_operations.h>
 
@@ -90,15 +94,22 @@ TEST(Concepts, archetypes_are_adapted)
   EXPECT_NEAR(cube.area(), 24, 1e-9);
 }
 
-TEST(Concepts, archetypes_are_refined)
+TEST(Concepts, archetypes_go_through_each_kernel)
 {
   Cube cube;
+  const Execution execution = Execution::make();
+  const Constant<Vertex, double> size(0.4);
+  const auto np = parameters::vertex_point_map(cube.points).surface_reconstruction(Reconstruction());
   const std::size_t before = num_vertices(cube.graph);
-  const std::size_t splits = SMA::refine(
-    Execution::make(), cube.graph, Constant<Vertex, double>(0.4),
-    parameters::vertex_point_map(cube.points).surface_reconstruction(Reconstruction()));
+  const std::size_t splits = SMA::refine(execution, cube.graph, size, np);
   EXPECT_GT(splits, 0u);
   EXPECT_EQ(num_vertices(cube.graph), before + splits);
+  SMA::swap(execution, cube.graph, size, np);
+  SMA::regularize(execution, cube.graph, size, np);
+  SMA::relocate(execution, cube.graph, size, np);
+  const std::size_t removed = SMA::simplify(execution, cube.graph, Constant<Vertex, double>(4), np);
+  EXPECT_GT(removed, 0u);
+  EXPECT_LE(num_vertices(cube.graph), before + splits - removed);
   EXPECT_NEAR(cube.area(), 24, 1e-9);
 }
 
