@@ -3,6 +3,7 @@
 // Adapts a surface mesh to a metric: `adapt_mesh INPUT OUTPUT --size H` and the like, see `adapt_mesh --help`.
 
 #include "adapt_mesh/Bad_input.h"
+#include "adapt_mesh/Carried_fields.h"
 #include "adapt_mesh/Interrupts.h"
 #include "adapt_mesh/Output_file.h"
 #include "adapt_mesh/Progress.h"
@@ -43,13 +44,16 @@ public:
   {
     if (!options.output_metric.empty()) metric_.emplace(options.output_metric);
     if (!options.report.empty()) report_.emplace(options.report);
+    if (!options.output_attributes.empty()) attributes_.emplace(options.output_attributes);
   }
 
   /// Adds warnings to the report before it writes it.
-  void write(const Constrained_mesh& mesh, const Output_metric& metric, SMA::Adaptation_report& report)
+  void write(const Constrained_mesh& mesh, const Output_metric& metric, const Carried_fields& fields,
+             SMA::Adaptation_report& report)
   {
     mesh_.write([&](const std::string& file) { append(report.warnings, write_mesh(file, mesh)); });
     if (metric_) metric_->write([&](const std::string& file) { write_metric(file, mesh.mesh, metric); });
+    if (attributes_) attributes_->write([&](const std::string& file) { fields.write(file, mesh.mesh); });
     if (report_) report_->write([&](const std::string& file) { write_report(file, report); });
   }
 
@@ -57,6 +61,7 @@ public:
   {
     if (report_) report_->commit();
     if (metric_) metric_->commit();
+    if (attributes_) attributes_->commit();
     mesh_.commit();
   }
 
@@ -70,6 +75,7 @@ private:
 
   Output_file mesh_;
   std::optional<Output_file> metric_;
+  std::optional<Output_file> attributes_;
   std::optional<Output_file> report_;
 };
 
@@ -77,13 +83,22 @@ void check_files(const Options& options)
 {
   for (const std::string& file : {options.input, options.output})
     if (!is_mesh_format(file)) throw Usage_error(file + ": the format must be off, obj, ply, stl, mesh or meshb");
-  for (const std::string& file : {options.metric, options.field, options.output_metric})
+  for (const std::string& file : {options.metric, options.field, options.output_metric, options.attributes,
+                                  options.output_attributes})
     if (!file.empty() && extension(file) != "sol" && extension(file) != "solb")
       throw Usage_error(file + ": the format must be sol or solb");
   if (!options.report.empty() && (options.report == options.output || options.report == options.output_metric))
     throw Usage_error(options.report + ": the same name for two outputs");
   if ((!options.metric.empty() || !options.field.empty()) && extension(options.input) == "stl")
     throw Usage_error("--metric and --field need vertices that are numbered, and those of an stl file are not");
+}
+
+/// Edges of the input that stay as they are.
+void protect_edges(const Options& options, Constrained_mesh& mesh)
+{
+  for (const Edge e : mesh.mesh.edges())
+    if ((options.boundary == "keep" && mesh.mesh.is_border(e)) || (options.protect && mesh.edge_is_constrained[e]))
+      mesh.edge_is_protected[e] = true;
 }
 
 void run(const Options& options)
@@ -95,7 +110,11 @@ void run(const Options& options)
   Progress progress(options.quiet, options.verbose);
 
   Constrained_mesh mesh;
-  reading(options.input, [&] { read_mesh(options.input, mesh, {!options.no_weld, options.repair}); });
+  reading(options.input, [&] {
+    read_mesh(options.input, mesh, {!options.no_weld, options.repair, !options.no_references});
+  });
+  protect_edges(options, mesh);
+  const Carried_fields fields(options, mesh);
   const Mesh input = options.quiet ? Mesh() : mesh.mesh;
   Output_metric output_metric;
   output_metric.wanted = !options.output_metric.empty();
@@ -103,10 +122,10 @@ void run(const Options& options)
     output_metric.map = mesh.mesh.add_property_map<Vertex, SMA::Metric_tensor_3>("v:metric").first;
 
   const auto adapt = options.flat ? adapt_on_triangles : adapt_on_patches;
-  SMA::Adaptation_report report = adapt(options, mesh, output_metric, progress);
+  SMA::Adaptation_report report = adapt(options, mesh, output_metric, fields, progress);
   append(report.repairs, mesh.repairs);
   append(report.warnings, mesh.warnings);
-  outputs.write(mesh, output_metric, report);
+  outputs.write(mesh, output_metric, fields, report);
   interrupts.ignore();
   outputs.commit();
   interrupts.end();

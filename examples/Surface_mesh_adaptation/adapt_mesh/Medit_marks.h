@@ -28,8 +28,11 @@ public:
   Medit_marks(const SMA::Medit_mesh& medit, std::vector<std::uint32_t> place)
     : place_(std::move(place)), is_marked_(place_.size(), false), is_vertex_(place_.size(), false)
   {
+    std::vector<bool> is_required(medit.edges.size(), false);
+    for (const std::uint32_t e : medit.required_edges) is_required[e] = true;
     for (const auto* indices : {&medit.ridges, &medit.required_edges})
-      for (const std::uint32_t e : *indices) edges_.push_back({key(medit.edges[e][0], medit.edges[e][1]), e, false});
+      for (const std::uint32_t e : *indices)
+        edges_.push_back({key(medit.edges[e][0], medit.edges[e][1]), e, false, is_required[e]});
     std::sort(edges_.begin(), edges_.end(), [](const auto& e, const auto& f) { return e.ends < f.ends; });
     for (const auto* indices : {&medit.corners, &medit.required_vertices}) {
       vertices_.insert(vertices_.end(), indices->begin(), indices->end());
@@ -46,8 +49,9 @@ public:
       if (is_marked_[place_[point_of_vertex[v]]]) result.vertex_is_constrained[v] = true;
     }
     for (const Edge e : mesh.edges())
-      if (find_edge(key(point_of_vertex[mesh.vertex(e, 0)], point_of_vertex[mesh.vertex(e, 1)])))
-        result.edge_is_constrained[e] = true;
+      if (const Marked_edge* marked =
+            find_edge(key(point_of_vertex[mesh.vertex(e, 0)], point_of_vertex[mesh.vertex(e, 1)])))
+        (marked->is_required ? result.edge_is_protected : result.edge_is_constrained)[e] = true;
   }
 
   /// Marked edges that are not on the mesh.
@@ -76,6 +80,7 @@ private:
     Key ends; // their places
     std::uint32_t index;
     bool is_found;
+    bool is_required;
   };
 
   Key key(std::size_t v, std::size_t w) const
@@ -83,13 +88,14 @@ private:
     return {(std::min)(place_[v], place_[w]), (std::max)(place_[v], place_[w])};
   }
 
-  bool find_edge(const Key& ends)
+  /// The mark of the edge; null if it has none.
+  const Marked_edge* find_edge(const Key& ends)
   {
     const auto is_before = [](const Marked_edge& e, const Key& k) { return e.ends < k; };
     auto e = std::lower_bound(edges_.begin(), edges_.end(), ends, is_before);
-    const bool is_marked = e != edges_.end() && e->ends == ends;
+    const Marked_edge* const marked = e != edges_.end() && e->ends == ends ? &*e : nullptr;
     for (; e != edges_.end() && e->ends == ends; ++e) e->is_found = true;
-    return is_marked;
+    return marked;
   }
 
   std::vector<std::uint32_t> place_;

@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <cstdlib>
@@ -153,8 +154,8 @@ private:
     while (!kind.empty()) {
       has_more_columns_ = true;
       if (takes("ST")) soup_.lost.push_back("texture coordinates");
-      else if (takes("C")) soup_.lost.push_back("colours");
-      else if (takes("N")) soup_.lost.push_back("normals");
+      else if (takes("C")) has_colours_ = true;
+      else if (takes("N")) soup_.has_normals = true;
       else if (takes("4") || takes("n")) fail(position, "the points are not in three dimensions");
       else fail(position, "not the header of an off file");
     }
@@ -169,41 +170,77 @@ private:
     return std::size_t(n);
   }
 
-  /// What follows three coordinates in the first line is taken for a column of the file, and left out.
+  /// What follows the coordinates is in the order of the header: normals, which are computed anew, colours, texture
+  /// coordinates, which are left out. Numbers that the header does not announce are taken for colours if there are three
+  /// or four.
   void read_points(std::size_t n)
   {
-    if (!has_more_columns_ && n > 0 && words_in_line() > 3) {
+    const std::size_t words = n > 0 ? words_in_line() : 0;
+    if (!has_more_columns_ && words > 3) {
       has_more_columns_ = true;
-      soup_.lost.push_back("columns after the coordinates");
+      has_colours_ = words == 6 || words == 7;
+      if (!has_colours_) soup_.lost.push_back("columns after the coordinates");
     }
+    const std::size_t before_colours = soup_.has_normals ? 3 : 0;
     soup_.points.reserve(n);
     for (std::size_t i = 0; i < n; ++i) {
       const double x = coordinate(), y = coordinate(), z = coordinate();
       soup_.points.emplace_back(x, y, z);
+      if (has_colours_) {
+        for (std::size_t k = 0; k < before_colours; ++k) coordinate();
+        read_colour(soup_.of_points, i);
+      }
       if (has_more_columns_) skip_line();
     }
   }
+
+  /// Reads the colour of element `i`: numbers up to 1 or up to 255, in the first line as in the others.
+  void read_colour(std::vector<Column>& columns, std::size_t i)
+  {
+    constexpr std::array<const char*, 4> names = {"red", "green", "blue", "alpha"};
+    const std::size_t n = (std::min)(words_in_line_or_less(), names.size());
+    if (n < 3) return fill_colours(columns, i);
+    const char* const first = next_;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double x = number<double>("a colour");
+      if (columns.size() <= k && i == 0) columns.push_back({names[k], {'u', 1}, {}});
+      if (k >= columns.size()) continue;
+      const bool is_share = std::find(first, next_, '.') != next_;
+      if (is_share) columns[k].type = {'f', 4};
+      columns[k].values.push_back(x);
+    }
+    fill_colours(columns, i);
+  }
+
+  /// Elements without a colour, or with less than the others have.
+  static void fill_colours(std::vector<Column>& columns, std::size_t i)
+  {
+    for (Column& c : columns) c.values.resize(i + 1, 0);
+  }
+
+  std::size_t words_in_line_or_less() { return at_end_of_line() ? 0 : words_in_line(); }
 
   double coordinate() { return number<double>("a coordinate"); }
 
   void read_polygons(std::size_t n)
   {
-    bool has_colours = false;
+    std::size_t i = 0;
     soup_.polygons.resize(n);
     for (Polygon& polygon : soup_.polygons) {
       const auto corners = number<long long>("the number of corners of a face");
       if (corners < 0 || corners > (end_ - next_) / 2) fail(next_, "the file is too short for a face");
       polygon.resize(std::size_t(corners));
       for (std::size_t& v : polygon) v = std::size_t(number<long long>("the index of a corner"));
-      has_colours = skip_line() || has_colours;
+      read_colour(soup_.of_polygons, i++);
+      skip_line();
     }
-    if (has_colours) soup_.lost.push_back("colours of faces");
   }
 
   std::string file_;
   const char* begin_;
   const char* end_;
   const char* next_;
+  bool has_colours_ = false;
   bool has_more_columns_ = false; // after the coordinates of each vertex, up to the end of the line
   Polygon_soup soup_;
 };

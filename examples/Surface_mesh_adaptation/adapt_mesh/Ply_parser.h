@@ -50,11 +50,7 @@ public:
 private:
   enum class Format { text, little_endian, big_endian };
 
-  struct Type
-  {
-    char kind;        // i, u or f; 0: unknown
-    std::size_t size; // in bytes
-  };
+  using Type = Number_type;
 
   struct Property
   {
@@ -250,29 +246,85 @@ private:
       if (i == e.properties.size() || e.properties[i].count.size > 0) fail("vertices without coordinates");
       coordinate[i] = std::size_t(name[0] - 'x');
     }
-    for (std::size_t i = 0; i < e.properties.size(); ++i)
-      if (coordinate[i] == 3) soup_.lost.push_back(e.properties[i].name + " of each vertex");
+    const std::vector<std::size_t> column = columns(e, "vertex", soup_.of_points, [&](std::size_t i) {
+      return coordinate[i] == 3 && !is_normal(e.properties[i]);
+    });
     soup_.points.reserve(e.count);
     std::array<double, 3> p{};
     for (std::size_t n = 0; n < e.count; ++n) {
       for (std::size_t i = 0; i < e.properties.size(); ++i)
         if (coordinate[i] < 3) p[coordinate[i]] = value(e.properties[i].type);
-        else skip(e.properties[i]);
+        else read_or_skip(e.properties[i], column[i], soup_.of_points);
       soup_.points.emplace_back(p[0], p[1], p[2]);
     }
+  }
+
+  /// Normals are computed anew.
+  bool is_normal(const Property& p)
+  {
+    const bool is = p.count.size == 0 && (p.name == "nx" || p.name == "ny" || p.name == "nz");
+    soup_.has_normals = soup_.has_normals || is;
+    return is;
+  }
+
+  static constexpr std::size_t no_column = std::size_t(-1);
+
+  /// The place of each property of `e` among `all`, to which those are added that are single numbers and `is_wanted(i)`.
+  template <class IsWanted>
+  std::vector<std::size_t> columns(const Element& e, const char* kind, std::vector<Column>& all, const IsWanted& is_wanted)
+  {
+    std::vector<std::size_t> place(e.properties.size(), no_column);
+    for (std::size_t i = 0; i < place.size(); ++i) {
+      if (!is_wanted(i)) continue;
+      const Property& p = e.properties[i];
+      if (p.count.size > 0) {
+        soup_.lost.push_back(p.name + " of each " + kind);
+        continue;
+      }
+      place[i] = all.size();
+      all.push_back({p.name, p.type, {}});
+    }
+    return place;
+  }
+
+  void read_or_skip(const Property& p, std::size_t column, std::vector<Column>& all)
+  {
+    if (column == no_column) skip(p);
+    else all[column].values.push_back(value(p.type));
   }
 
   void read_polygons(const Element& e)
   {
     const std::size_t corners = (std::min)(e.index_of("vertex_indices"), e.index_of("vertex_index"));
     if (corners == e.properties.size() || e.properties[corners].count.size == 0) fail("faces without vertex_indices");
-    for (std::size_t i = 0; i < e.properties.size(); ++i)
-      if (i != corners) soup_.lost.push_back(e.properties[i].name + " of each face");
+    const std::size_t uv = e.index_of("texcoord");
+    const bool has_uv = uv < e.properties.size() && e.properties[uv].count.size > 0;
+    const std::vector<std::size_t> column = columns(e, "face", soup_.of_polygons, [&](std::size_t i) {
+      return i != corners && !(has_uv && i == uv);
+    });
     soup_.polygons.resize(e.count);
-    for (Polygon& polygon : soup_.polygons)
+    for (Polygon& polygon : soup_.polygons) {
+      std::vector<double> coordinates;
       for (std::size_t i = 0; i < e.properties.size(); ++i)
         if (i == corners) read_polygon(e.properties[i], polygon);
-        else skip(e.properties[i]);
+        else if (has_uv && i == uv) coordinates = read_list(e.properties[i]);
+        else read_or_skip(e.properties[i], column[i], soup_.of_polygons);
+      if (has_uv) add_corners(polygon.size(), coordinates);
+    }
+  }
+
+  std::vector<double> read_list(const Property& p)
+  {
+    std::vector<double> list(length_of_list(p));
+    for (double& x : list) x = value(p.type);
+    return list;
+  }
+
+  /// \param uv two numbers for each corner of a face; if there are others, the face has none
+  void add_corners(std::size_t n, std::vector<double> uv)
+  {
+    if (uv.size() != 2 * n) uv.assign(2 * n, 0);
+    for (std::size_t i = 0; i < n; ++i) soup_.of_corners.push_back({uv[2 * i], uv[2 * i + 1]});
   }
 
   void read_polygon(const Property& p, Polygon& polygon)

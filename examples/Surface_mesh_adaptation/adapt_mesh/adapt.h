@@ -6,6 +6,7 @@
 #ifndef ADAPT_MESH_ADAPT_H
 #define ADAPT_MESH_ADAPT_H
 
+#include "Carried_fields.h"
 #include "Progress.h"
 #include "mesh_files.h"
 #include "metric_files.h"
@@ -17,8 +18,8 @@ namespace adapt_mesh {
 
 /// \throws Bad_input, Usage_error, and what `adapt_surface_mesh()` throws
 /// @{
-SMA::Adaptation_report adapt_on_patches(const Options&, Constrained_mesh&, const Output_metric&, Progress&);
-SMA::Adaptation_report adapt_on_triangles(const Options&, Constrained_mesh&, const Output_metric&, Progress&);
+SMA::Adaptation_report adapt_on_patches(const Options&, Constrained_mesh&, const Output_metric&, const Carried_fields&, Progress&);
+SMA::Adaptation_report adapt_on_triangles(const Options&, Constrained_mesh&, const Output_metric&, const Carried_fields&, Progress&);
 /// @}
 
 } // namespace adapt_mesh

@@ -39,10 +39,19 @@ SMA::Adaptation_report within_limits(const Options& options, const Adapt& adapt)
   }
 }
 
+/// The maps of what is carried at vertices.
+inline std::vector<Mesh::Property_map<Vertex, double>> maps_of_vertices(const Constrained_mesh& mesh,
+                                                                       const Carried_fields& fields)
+{
+  auto result = maps(mesh.at_vertices);
+  result.insert(result.end(), fields.maps().begin(), fields.maps().end());
+  return result;
+}
+
 /// As `adapt.h` says, with a `Reconstruction` between the vertices of the input.
 template <class Reconstruction>
 SMA::Adaptation_report adapt_on(const Options& options, Constrained_mesh& mesh, const Output_metric& output_metric,
-                                Progress& progress)
+                                const Carried_fields& fields, Progress& progress)
 {
   constexpr double none = std::numeric_limits<double>::infinity();
   const double tolerance = options.tolerance > 0 ? options.tolerance * diagonal(mesh.mesh) : none;
@@ -51,6 +60,11 @@ SMA::Adaptation_report adapt_on(const Options& options, Constrained_mesh& mesh, 
       .feature_angle(options.feature_angle.value_or(SMA::Feature_parameters().ridge_angle))
       .smooth_borders(options.smooth_borders)
       .edge_is_constrained_map(mesh.edge_is_constrained)
+      .edge_is_protected_map(mesh.edge_is_protected)
+      .face_patch_map(mesh.label)
+      .vertex_attribute_maps(maps_of_vertices(mesh, fields))
+      .face_attribute_maps(maps_of_faces(mesh))
+      .halfedge_attribute_maps(maps(mesh.at_corners))
       .vertex_is_constrained_map(mesh.vertex_is_constrained)
       .maximum_number_of_vertices(options.max_vertices > 0 ? std::size_t(options.max_vertices) : std::size_t(-1))
       .number_of_iterations(options.rounds > 0 ? unsigned(options.rounds) : SMA::default_number_of_rounds)

@@ -10,7 +10,6 @@
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT/Medit_mesh.h>
 
 #include <algorithm>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,10 +25,8 @@ inline Polygon_soup polygon_soup(const CGAL::Surface_mesh_adaptation::Medit_mesh
   for (const auto& t : medit.triangles) soup.polygons.emplace_back(t.begin(), t.end());
   for (const auto& q : medit.quadrilaterals) soup.polygons.emplace_back(q.begin(), q.end());
 
-  std::vector<int> references = medit.triangle_references;
-  references.insert(references.end(), medit.quadrilateral_references.begin(), medit.quadrilateral_references.end());
-  if (std::adjacent_find(references.begin(), references.end(), std::not_equal_to<>()) != references.end())
-    soup.lost.push_back("the references of the faces");
+  soup.labels = medit.triangle_references;
+  soup.labels.insert(soup.labels.end(), medit.quadrilateral_references.begin(), medit.quadrilateral_references.end());
   for (const std::string& section : medit.ignored_sections) soup.lost.push_back("the section " + section);
   return soup;
 }

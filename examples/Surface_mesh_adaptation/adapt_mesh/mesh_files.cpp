@@ -7,7 +7,10 @@
 
 #include "Bad_input.h"
 #include "Medit_marks.h"
+#include "medit_elements.h"
 #include "medit_soup.h"
+#include "mesh_writers.h"
+#include "soup_content.h"
 #include "soup_files.h"
 
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
@@ -117,7 +120,9 @@ void parse_polygons(const std::string& text, const std::string& file, Constraine
                     const Reading_options& options)
 {
   Polygon_soup soup = parse_polygon_soup(text, extension(file), file);
+  const std::vector<Point> points = soup.of_corners.empty() ? std::vector<Point>() : soup.points;
   const SMA::Repair_report report = build(soup, options, result);
+  Soup_content(soup, points, report).put_on(result, options.references);
   conclude(file, Findings(report), soup.lost, options, result);
 }
 
@@ -130,16 +135,31 @@ std::vector<std::uint32_t> places(const std::vector<Point>& points, bool may_be_
   return indices;
 }
 
+/// As if only the shape mattered: required elements are constrained, as ridges and corners are.
+void forget_references(SMA::Medit_mesh& medit)
+{
+  for (auto* references : {&medit.point_references, &medit.triangle_references, &medit.quadrilateral_references,
+                           &medit.edge_references})
+    std::fill(references->begin(), references->end(), 0);
+  medit.ridges.insert(medit.ridges.end(), medit.required_edges.begin(), medit.required_edges.end());
+  medit.required_edges.clear();
+  medit.required_triangles.clear();
+}
+
 /// The topology of these files is explicit: nothing is joined unless it is to be repaired. Points and marks off the
 /// surface are right if there is a volume.
 void parse_medit(const std::string& text, const std::string& file, Constrained_mesh& result, Reading_options options)
 {
-  const SMA::Medit_mesh medit = SMA::parse_medit_mesh(text, file);
+  SMA::Medit_mesh medit = SMA::parse_medit_mesh(text, file);
+  if (!options.references) forget_references(medit);
   options.weld = options.weld && options.repair;
   Polygon_soup soup = polygon_soup(medit);
-  Medit_marks marks(medit, places(soup.points, options.weld));
+  const std::vector<std::uint32_t> place = places(soup.points, options.weld);
+  Medit_marks marks(medit, place);
   SMA::Repair_report report = build(soup, options, result);
   marks.put_on(result, report.point_of_vertex);
+  Soup_content(soup, {}, report).put_on(result, options.references);
+  put_content(medit, place, report, result);
   if (has_volume(medit)) report.isolated_points = SMA::Soup_defect();
   Findings found(report);
   const SMA::Soup_defect edges = marks.stray_edges(), vertices = marks.stray_vertices();
@@ -178,14 +198,16 @@ double shortest_edge(const Mesh& mesh)
   return std::sqrt(shortest);
 }
 
-bool write_with_cgal(std::ofstream& out, const std::string& format, bool is_binary, const Mesh& mesh)
+void write(std::ofstream& out, const std::string& format, bool as_text, const Constrained_mesh& mesh)
 {
-  const auto precision = CGAL::parameters::stream_precision(std::numeric_limits<double>::max_digits10);
-  if (is_binary) CGAL::IO::set_binary_mode(out);
-  return format == "off"   ? CGAL::IO::write_OFF(out, mesh, precision)
-         : format == "obj" ? CGAL::IO::write_OBJ(out, mesh, precision)
-         : format == "ply" ? CGAL::IO::write_PLY(out, mesh, precision)
-                           : CGAL::IO::write_STL(out, mesh, precision);
+  if (format == "off") write_off(out, mesh);
+  else if (format == "obj") write_obj(out, mesh);
+  else if (format == "ply") write_ply(out, mesh);
+  else if (as_text) write_stl_text(out, mesh);
+  else {
+    CGAL::IO::set_binary_mode(out);
+    CGAL::IO::write_STL(out, mesh.mesh);
+  }
 }
 
 } // namespace
@@ -211,20 +233,23 @@ void read_mesh(const std::string& file, Constrained_mesh& result, const Reading_
 std::vector<std::string> write_mesh(const std::string& file, const Constrained_mesh& mesh)
 {
   const std::string format = extension(file);
+  std::vector<std::string> warnings;
+  const std::vector<std::string> lost = left_out(format, mesh);
+  if (!lost.empty()) warnings.push_back("not held by the format " + format + ", and left out: " + joined(lost));
   if (is_medit_format(file)) {
-    SMA::write_medit_mesh(
-      file, SMA::triangle_mesh_to_medit(mesh.mesh, mesh.edge_is_constrained, mesh.vertex_is_constrained));
-    return {};
+    SMA::write_medit_mesh(file, medit_mesh(mesh));
+    return warnings;
   }
   constexpr double largest_share = 0.01; // of the shortest edge that rounding may move a vertex by
   const bool is_too_coarse = // for the single precision of binary stl files
     format == "stl" && rounding_of_single_precision(mesh.mesh) > largest_share * shortest_edge(mesh.mesh);
   std::ofstream out(file, std::ios::binary);
-  const bool success = write_with_cgal(out, format, format == "ply" || (format == "stl" && !is_too_coarse), mesh.mesh);
-  if (!success || !out.flush()) throw SMA::Io_error(file, 0, "cannot be written");
-  if (!is_too_coarse) return {};
-  return {"the output is text: the single precision of binary stl files would move vertices by more than a hundredth "
-          "of the shortest edge"};
+  write(out, format, is_too_coarse || mesh.has_labels, mesh);
+  if (!out.flush()) throw SMA::Io_error(file, 0, "cannot be written");
+  if (is_too_coarse)
+    warnings.push_back("the output is text: the single precision of binary stl files would move vertices by more than a "
+                       "hundredth of the shortest edge");
+  return warnings;
 }
 
 } // namespace adapt_mesh

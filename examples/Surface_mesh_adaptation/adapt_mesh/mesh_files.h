@@ -5,6 +5,7 @@
 #ifndef ADAPT_MESH_MESH_FILES_H
 #define ADAPT_MESH_MESH_FILES_H
 
+#include "Medit_content.h"
 #include "Polygon_soup.h"
 
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
@@ -18,6 +19,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,13 +31,43 @@ namespace SMA = CGAL::Surface_mesh_adaptation;
 using Mesh = CGAL::Surface_mesh<Point>;
 using Vertex = Mesh::Vertex_index;
 using Edge = Mesh::Edge_index;
+using Halfedge = Mesh::Halfedge_index;
+using Face = Mesh::Face_index;
 
-/// A mesh with its constraints.
+/// Numbers at elements of a mesh, as a column of a file.
+template <class Element>
+struct Attribute
+{
+  std::string name;
+  Number_type type;
+  Mesh::Property_map<Element, double> map;
+};
+
+/// The maps of attributes, as the library takes them.
+template <class Element>
+std::vector<Mesh::Property_map<Element, double>> maps(const std::vector<Attribute<Element>>& attributes)
+{
+  std::vector<Mesh::Property_map<Element, double>> result;
+  for (const Attribute<Element>& a : attributes) result.push_back(a.map);
+  return result;
+}
+
+/// A mesh with its constraints and all that its elements carry.
 struct Constrained_mesh
 {
   Mesh mesh;
   Mesh::Property_map<Edge, bool> edge_is_constrained;
+  Mesh::Property_map<Edge, bool> edge_is_protected;
   Mesh::Property_map<Vertex, bool> vertex_is_constrained;
+  Mesh::Property_map<Face, int> label;  ///< all 0 if there are none
+  bool has_labels = false;
+  std::vector<Label> names;             ///< of the labels 0, 1, ...; empty if they are numbers only
+  std::string material_library;
+  std::vector<Attribute<Vertex>> at_vertices;
+  std::vector<Attribute<Face>> at_faces;
+  std::vector<Attribute<Halfedge>> at_corners; ///< texture coordinates u, v, each at the halfedge that arrives; or none
+  bool has_normals = false;             ///< the input has, at its vertices
+  std::unique_ptr<Medit_content> medit; ///< what only MEDIT files have
   std::vector<Vertex> vertex_of_point; ///< the vertex of each point of the file, `null_vertex()` if not used
   std::vector<std::pair<Vertex, Vertex>> copies; ///< vertices that a repair has made, and of which others
   std::vector<std::string> repairs;    ///< what was mended, one sentence each
@@ -43,11 +75,21 @@ struct Constrained_mesh
 
   Constrained_mesh()
     : edge_is_constrained(mesh.add_property_map<Edge, bool>("e:constrained", false).first),
-      vertex_is_constrained(mesh.add_property_map<Vertex, bool>("v:constrained", false).first)
+      edge_is_protected(mesh.add_property_map<Edge, bool>("e:protected", false).first),
+      vertex_is_constrained(mesh.add_property_map<Vertex, bool>("v:constrained", false).first),
+      label(mesh.add_property_map<Face, int>("f:label", 0).first)
   {}
   Constrained_mesh(const Constrained_mesh&) = delete; // the maps belong to the mesh
   Constrained_mesh& operator=(const Constrained_mesh&) = delete;
 };
+
+/// The maps of the attributes at faces, and what else is known of each face.
+inline std::vector<Mesh::Property_map<Face, double>> maps_of_faces(const Constrained_mesh& mesh)
+{
+  auto result = maps(mesh.at_faces);
+  if (mesh.medit != nullptr && mesh.medit->has_required_triangles) result.push_back(mesh.medit->is_required);
+  return result;
+}
 
 /// Of the bounding box.
 inline double diagonal(const Mesh& mesh)
@@ -75,8 +117,9 @@ inline bool is_medit_format(const std::string& file) { return extension(file) ==
 /// What is done to what a file holds.
 struct Reading_options
 {
-  bool weld = true;    ///< join coincident points where edges match then
-  bool repair = false; ///< mend what is no valid surface
+  bool weld = true;       ///< join coincident points where edges match then
+  bool repair = false;    ///< mend what is no valid surface
+  bool references = true; ///< keep labels of faces, and what MEDIT files call references and required
 };
 
 /// Reads the mesh in `file`, or in the file of that name among CGAL's data, into the empty `result`.

@@ -46,6 +46,11 @@ struct Options
   std::optional<double> feature_angle; ///< in degrees
   bool no_features = false;
   bool smooth_borders = false;
+  std::string boundary;        ///< keep or resample, empty if not given
+  bool protect = false;
+  bool no_references = false;
+  std::string attributes;        ///< a file
+  std::string output_attributes; ///< the same
   bool no_weld = false;
   bool repair = false;
   int rounds = 0;
@@ -99,6 +104,15 @@ inline po::options_description described_options(Options& o)
     ("no-features", po::bool_switch(&o.no_features), "do not look for sharp edges")
     ("smooth-borders", po::bool_switch(&o.smooth_borders),
      "keep the outlines of the planes of a CAD tessellation where fillets and the like join them smoothly")
+    ("boundary", po::value(&o.boundary)->value_name("WHICH"),
+     "keep: boundary edges stay as they are; resample: they are split and collapsed like others (default)")
+    ("protect", po::bool_switch(&o.protect),
+     "ridges and other marked edges of the input stay as they are, as required ones do")
+    ("no-references", po::bool_switch(&o.no_references),
+     "forget labels of faces: references, groups, materials, solids; required elements count as ridges and corners")
+    ("attributes", po::value(&o.attributes)->value_name("FILE.sol"),
+     "fields at the vertices of the input, any number of them, to be carried to the output")
+    ("output-attributes", po::value(&o.output_attributes)->value_name("FILE.sol"), "where to write these")
     ("tolerance", po::value(&o.tolerance)->value_name("EPS"),
      "keep the Hausdorff distance between input and output below EPS times the diagonal of the bounding box, and certify "
      "it; if nothing else says how fine the mesh is to be, the curvature does such that this is likely")
@@ -172,6 +186,10 @@ inline void check_consistent(const Options& o)
   if (o.size > 0 && (o.hmin > 0 || o.hmax > 0)) throw Usage_error("--hmin and --hmax contradict --size");
   if (o.size > 0 && (o.vertices > 0 || o.gradation)) throw Usage_error("--vertices and --gradation contradict --size");
   if (o.hmin > 0 && o.hmax > 0 && o.hmin > o.hmax) throw Usage_error("--hmin is larger than --hmax");
+  if (!o.boundary.empty() && o.boundary != "keep" && o.boundary != "resample")
+    throw Usage_error("--boundary must be keep or resample");
+  if (o.attributes.empty() != o.output_attributes.empty())
+    throw Usage_error("--attributes and --output-attributes need each other");
   if (o.no_features && o.feature_angle) throw Usage_error("--feature-angle contradicts --no-features");
   if (o.shape_weight && !o.fit) throw Usage_error("--shape-weight needs --fit");
   if (o.quiet && o.verbose) throw Usage_error("--quiet contradicts --verbose");

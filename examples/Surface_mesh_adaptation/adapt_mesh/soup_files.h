@@ -8,7 +8,7 @@
 #include "Off_parser.h"
 #include "Ply_parser.h"
 #include "Polygon_soup.h"
-#include "lost_content.h"
+#include "further_content.h"
 
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 
@@ -60,7 +60,7 @@ inline Polygon_soup parse_with_cgal(const std::string& text, const std::string& 
   }
   if (!success)
     throw CGAL::Surface_mesh_adaptation::Io_error(file, line_reached(in, text), "not a valid " + format + " file");
-  soup.lost = lost_content(format, text);
+  read_further_content(format, text, soup);
   return soup;
 }
 

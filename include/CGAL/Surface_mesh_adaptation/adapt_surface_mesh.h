@@ -150,8 +150,9 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNBegin{edge_is_constrained_map}
     \cgalParamDescription{edges that are features as ridges are: they stay chains of edges, which are split and
                           collapsed}
-    \cgalParamType{a `ReadablePropertyMap` with the edge descriptor as key and `bool` as value; if writable, all feature
-                   edges of the result are marked in it, ridges and boundaries included}
+    \cgalParamType{a `ReadablePropertyMap` with the edge descriptor as key and `bool` as value; if writable, the feature
+                   edges of the result are marked in it, ridges and boundaries included, but not those that follow from
+                   labels or charts; with `protect_constraints` those that are protected}
     \cgalParamDefault{no edge is constrained}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_is_constrained_map}
@@ -224,20 +225,23 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNBegin{vertex_attribute_maps}
     \cgalParamDescription{values at the vertices that the result is to have, too: interpolated on the input, see
                           `Attribute_interpolator`}
-    \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the vertex descriptor as key}
+    \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the vertex descriptor as key, or a
+                   `std::vector` of those of one type}
     \cgalParamDefault{none}
   \cgalParamNEnd
   \cgalParamNBegin{face_attribute_maps}
     \cgalParamDescription{values at the faces that the result is to have, too: those of the face of the input below the
                           centre}
-    \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the face descriptor as key}
+    \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the face descriptor as key, or a
+                   `std::vector` of those of one type}
     \cgalParamDefault{none}
   \cgalParamNEnd
   \cgalParamNBegin{halfedge_attribute_maps}
     \cgalParamDescription{values at the corners of faces, such as texture coordinates, each at the halfedge that arrives at
                           the corner: interpolated on the input. Edges on whose sides they differ are features, so that no
                           face lies across a seam, and both sides of it keep their own values.}
-    \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the halfedge descriptor as key; values have `==`}
+    \cgalParamType{a `std::tuple` of `ReadWritePropertyMap`s with the halfedge descriptor as key, or a
+                   `std::vector` of those of one type; values have `==`}
     \cgalParamDefault{none}
   \cgalParamNEnd
   \cgalParamNBegin{vertex_origin_map}

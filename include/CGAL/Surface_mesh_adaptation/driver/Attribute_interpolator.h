@@ -36,6 +36,16 @@ struct Attribute_interpolator
 };
 
 /// \cond SKIP_IN_MANUAL
+/// The same, exact where the values are.
+template <class Value>
+struct Attribute_interpolator<Value, std::enable_if_t<std::is_floating_point_v<Value>>>
+{
+  Value operator()(const Attribute_weights& w, Value a, Value b, Value c) const
+  {
+    return Value(a + w[1] * (b - a) + w[2] * (c - a));
+  }
+};
+
 /// Numbers of something, and truth: that of the nearest vertex.
 template <class Value>
 struct Attribute_interpolator<Value, std::enable_if_t<std::is_integral_v<Value> || std::is_enum_v<Value>>>

@@ -14,18 +14,17 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 
 #include <tuple>
+#include <type_traits>
+#include <utility>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 namespace internal {
 
-/// A class template over the maps of a parameter that is a tuple of maps.
-template <template <class...> class Attributes, class... Maps>
-Attributes<Maps...> of_maps(const std::tuple<Maps...>&);
-
-template <template <class...> class Attributes, class NamedParameters, class Tag>
+/// A class template over the maps of a parameter, a tuple or a vector of maps.
+template <template <class> class Attributes, class NamedParameters, class Tag>
 using Attributes_of =
-  decltype(of_maps<Attributes>(choose(std::declval<const NamedParameters&>(), Tag(), std::tuple<>())));
+  Attributes<std::decay_t<decltype(choose(std::declval<const NamedParameters&>(), Tag(), std::tuple<>()))>>;
 
 template <class Domain, class NamedParameters>
 class Carried_values
@@ -54,7 +53,7 @@ public:
   template <class Execution, class Surface>
   void prepare(const Execution& execution, const Surface& surface)
   {
-    below_ = faces_below(execution, surface, decltype(at_faces_)::exist || decltype(origins_)::of_faces);
+    below_ = faces_below(execution, surface, !at_faces_.empty() || decltype(origins_)::of_faces);
   }
 
   /// Writes them to the result.

@@ -114,7 +114,7 @@ void write_constraints(const Domain& domain, const Surface& surface, const Featu
   if constexpr (has_writable_map<NamedParameters, CGAL::internal_np::edge_is_constrained_t>()) {
     const bool are_protected = choose(np, CGAL::internal_np::protect_constraints, false);
     mark_edges(domain, CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained),
-               [&](Index h) { return are_protected ? is_protected(h) : surface.mesh.is_feature(h); });
+               [&](Index h) { return are_protected ? is_protected(h) : surface.mesh.is_shaped(h); });
   }
   if constexpr (has_writable_map<NamedParameters, internal_np::edge_is_protected_map_t>())
     mark_edges(domain, CGAL::parameters::get_parameter(np, internal_np::edge_is_protected_map), is_protected);

@@ -18,7 +18,6 @@
 #include <boost/property_map/property_map.hpp>
 
 #include <cstddef>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -49,47 +48,47 @@ Buffer<Index> faces_below(const Execution& execution, const Surface& surface, bo
 
 /// Values at vertices: interpolated on the surface of the input, where the vertices have ended up; nothing is smeared on
 /// the way.
-template <class... Maps>
+template <class Maps>
 class Vertex_attributes
 {
 public:
   template <class Imported_mesh>
-  Vertex_attributes(const Imported_mesh& imported, const std::tuple<Maps...>& maps) : values_(maps)
+  Vertex_attributes(const Imported_mesh& imported, const Maps& maps) : values_(maps)
   {
-    if constexpr (sizeof...(Maps) > 0) values_.save(imported.vertices);
+    if (!values_.empty()) save(values_, imported.vertices);
   }
 
   template <class Domain, class Surface>
   void write(const Domain& domain, const Surface& surface)
   {
-    if constexpr (sizeof...(Maps) > 0)
-      domain.for_each_vertex([&](Index i, const auto& v) {
-        const auto at = surface.reference().interpolation(surface.locations[i]);
-        values_.for_each([&](const auto& map, const auto& values) {
-          using Value = typename boost::property_traits<std::decay_t<decltype(map)>>::value_type;
-          put(map, v, Attribute_interpolator<Value>()(at.weights, values[at.vertices[0]].value,
-                                                      values[at.vertices[1]].value, values[at.vertices[2]].value));
-        });
+    if (values_.empty()) return;
+    domain.for_each_vertex([&](Index i, const auto& v) {
+      const auto at = surface.reference().interpolation(surface.locations[i]);
+      values_.for_each([&](const auto& map, const auto& values) {
+        using Value = typename boost::property_traits<std::decay_t<decltype(map)>>::value_type;
+        put(map, v, Attribute_interpolator<Value>()(at.weights, values[at.vertices[0]].value,
+                                                    values[at.vertices[1]].value, values[at.vertices[2]].value));
       });
+    });
   }
 
 private:
-  Saved_values<Maps...> values_;
+  Saved_values<Maps> values_;
 };
 
 /// Values at faces: of the face of the input below the centre.
-template <class... Maps>
+template <class Maps>
 class Face_attributes
 {
 public:
-  static constexpr bool exist = sizeof...(Maps) > 0;
-
   template <class FaceGraph>
-  Face_attributes(const FaceGraph& graph, const Imported_mesh<FaceGraph>& imported, const std::tuple<Maps...>& maps)
+  Face_attributes(const FaceGraph& graph, const Imported_mesh<FaceGraph>& imported, const Maps& maps)
     : values_(maps)
   {
-    if constexpr (exist) values_.save(faces_of(graph, imported));
+    if (!values_.empty()) save(values_, faces_of(graph, imported));
   }
+
+  bool empty() const { return values_.empty(); }
 
   /// `below[f]` is the face of the input of face `f`.
   template <class Domain>
@@ -101,19 +100,19 @@ public:
   }
 
 private:
-  Saved_values<Maps...> values_;
+  Saved_values<Maps> values_;
 };
 
 /// Values at the corners of faces, each at the halfedge that arrives there: interpolated in the face of the input on whose
 /// side of a feature the corner lies.
-template <class... Maps>
+template <class Maps>
 class Corner_attributes
 {
 public:
   template <class Imported_mesh>
-  Corner_attributes(const Imported_mesh& imported, const std::tuple<Maps...>& maps) : values_(maps)
+  Corner_attributes(const Imported_mesh& imported, const Maps& maps) : values_(maps)
   {
-    if constexpr (sizeof...(Maps) > 0) values_.save(imported.halfedges);
+    if (!values_.empty()) save(values_, imported.halfedges);
   }
 
   /// Constrains the edges on whose sides values differ.
@@ -133,12 +132,12 @@ public:
   template <class Domain, class Surface>
   void write(const Domain& domain, const Surface& surface)
   {
-    if constexpr (sizeof...(Maps) > 0)
-      domain.for_each_face([&](Index f, const auto& face) {
-        Index h = 3 * f;
-        for (const auto g : CGAL::halfedges_around_face(halfedge(face, domain.graph()), domain.graph()))
-          write_corner(g, location_in_sector(surface, Mesh_view::next(h++)));
-      });
+    if (values_.empty()) return;
+    domain.for_each_face([&](Index f, const auto& face) {
+      Index h = 3 * f;
+      for (const auto g : CGAL::halfedges_around_face(halfedge(face, domain.graph()), domain.graph()))
+        write_corner(g, location_in_sector(surface, Mesh_view::next(h++)));
+    });
   }
 
 private:
@@ -155,7 +154,7 @@ private:
     });
   }
 
-  Saved_values<Maps...> values_;
+  Saved_values<Maps> values_;
 };
 
 /// What an origin map gets: a descriptor of the input, or a number, counted in the order in which the mesh listed it.

@@ -71,13 +71,18 @@ public:
         } else return use(0);
       };
       Mesh_view& mesh = imported.mesh;
+      const auto add = [&](Index f) { with_patch(f, [&](const auto& patch) { patches_.push_back({patch}); }); };
+      if (!Domain::is_part && is_one_patch(mesh.number_of_faces(), with_patch)) {
+        add(0);
+        return;
+      }
       label_components(mesh, [&](Index f, Index g) {
         return is_inside(f) == is_inside(g) && with_patch(f, [&](const auto& a) {
           return with_patch(g, [&](const auto& b) { return a == b; });
         });
       }, [&](Index f) {
         is_inside_.push_back(is_inside(f));
-        with_patch(f, [&](const auto& patch) { patches_.push_back({patch}); });
+        add(f);
       });
       constrain(mesh, features);
     }
@@ -90,11 +95,24 @@ public:
   {
     if constexpr (has_writable_map<NamedParameters, CGAL::internal_np::face_patch_t>()) {
       const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::face_patch);
-      domain.for_each_face([&](Index f, const auto& face) { put(map, face, patches_[mesh.label[f]].value); });
+      domain.for_each_face([&](Index f, const auto& face) {
+        put(map, face, patches_[mesh.has_labels() ? mesh.label[f] : 0].value);
+      });
     }
   }
 
 private:
+  /// Whether all `n` faces are of one patch, so that nothing needs a label.
+  template <class WithPatch>
+  static bool is_one_patch(std::size_t n, const WithPatch& with_patch)
+  {
+    return with_patch(0, [&](const auto& first) {
+      for (Index f = 1; f < n; ++f)
+        if (!with_patch(f, [&](const auto& patch) { return patch == first; })) return false;
+      return true;
+    });
+  }
+
   void constrain(const Mesh_view& mesh, Feature_parameters& features) const
   {
     Edge_constraints constraints(features.halfedge_constraint);

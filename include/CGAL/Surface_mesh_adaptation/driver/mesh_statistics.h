@@ -71,7 +71,8 @@ struct Statistics_sum
 
 } // namespace internal
 
-/// Statistics of `surface` in its own metric.
+/// Statistics of `surface` in its own metric, but for edges that are protected and faces between these: they are what they
+/// are.
 template <class Execution, class Surface>
 Mesh_statistics mesh_statistics(const Execution& execution, const Surface& surface)
 {
@@ -80,10 +81,12 @@ Mesh_statistics mesh_statistics(const Execution& execution, const Surface& surfa
   const Sum sum = accumulate(execution, mesh.number_of_faces(), Sum(), [&](Sum& part, std::size_t f) {
     if (mesh.is_removed_face(Index(f))) return;
     const Index a = mesh.corner[3 * f], b = mesh.corner[3 * f + 1], c = mesh.corner[3 * f + 2];
-    part.add_face(surface.metrics[a], surface.metrics[b], surface.metrics[c], surface.points[a], surface.points[b],
-                  surface.points[c]);
-    for (Index h = 3 * Index(f); h < 3 * Index(f) + 3; ++h)
-      if (mesh.is_edge_owner(h)) part.add_edge(surface.length(h));
+    const Index first = 3 * Index(f);
+    if (!(mesh.is_protected(first) && mesh.is_protected(first + 1) && mesh.is_protected(first + 2)))
+      part.add_face(surface.metrics[a], surface.metrics[b], surface.metrics[c], surface.points[a], surface.points[b],
+                    surface.points[c]);
+    for (Index h = first; h < first + 3; ++h)
+      if (mesh.is_edge_owner(h) && !mesh.is_protected(h)) part.add_edge(surface.length(h));
   }, std::plus<Sum>());
   Mesh_statistics s = sum.s;
   s.vertices = count_if(execution, mesh.number_of_vertices(), [&](std::size_t v) {

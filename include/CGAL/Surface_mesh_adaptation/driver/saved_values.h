@@ -23,21 +23,18 @@ struct Saved_value
   Value value;
 };
 
-/// The values of several property maps at elements of the input, from before it is replaced.
+/// The values of several property maps at elements of the input, from before it is replaced. The maps are a tuple, or a
+/// vector of those of one type.
+template <class Maps>
+class Saved_values;
+
 template <class... Maps>
-class Saved_values
+class Saved_values<std::tuple<Maps...>>
 {
 public:
   explicit Saved_values(const std::tuple<Maps...>& maps) : maps_(maps) {}
 
-  template <class Elements>
-  void save(const Elements& elements)
-  {
-    for_each([&](const auto& map, auto& values) {
-      values.reserve(elements.size());
-      for (const auto& e : elements) values.push_back({get(map, e)});
-    });
-  }
+  bool empty() const { return sizeof...(Maps) == 0; }
 
   /// Calls `f(map, values)`, of which `values[i].value` is that of element `i`, for each map.
   template <class F>
@@ -56,6 +53,35 @@ private:
   std::tuple<Maps...> maps_;
   std::tuple<std::vector<Saved_value<typename boost::property_traits<Maps>::value_type>>...> values_;
 };
+
+template <class Map, class Allocator>
+class Saved_values<std::vector<Map, Allocator>>
+{
+public:
+  explicit Saved_values(const std::vector<Map, Allocator>& maps) : maps_(maps), values_(maps.size()) {}
+
+  bool empty() const { return maps_.empty(); }
+
+  template <class F>
+  void for_each(const F& f)
+  {
+    for (std::size_t i = 0; i < maps_.size(); ++i) f(maps_[i], values_[i]);
+  }
+
+private:
+  std::vector<Map, Allocator> maps_;
+  std::vector<std::vector<Saved_value<typename boost::property_traits<Map>::value_type>>> values_;
+};
+
+/// Saves the values at `elements`.
+template <class Maps, class Elements>
+void save(Saved_values<Maps>& saved, const Elements& elements)
+{
+  saved.for_each([&](const auto& map, auto& values) {
+    values.reserve(elements.size());
+    for (const auto& e : elements) values.push_back({get(map, e)});
+  });
+}
 
 } // namespace internal
 } // namespace Surface_mesh_adaptation

@@ -32,6 +32,7 @@ struct Medit_mesh
   std::vector<int> edge_references;          ///< as many as edges
   Indices ridges;                            ///< indices of edges: sharp edges of the surface
   Indices required_edges;                    ///< indices of edges
+  Indices required_triangles;                ///< indices of triangles
   Indices corners;                           ///< indices of points: where the surface has a tip, or ridges end or turn
   Indices required_vertices;                 ///< indices of points
   std::vector<std::string> ignored_sections; ///< names of the sections that were skipped, tetrahedra for instance

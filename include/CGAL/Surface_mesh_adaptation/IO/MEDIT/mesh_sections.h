@@ -45,6 +45,7 @@ private:
     else if (keyword == "Edges") read_tuples(keyword, mesh_.edges, mesh_.edge_references);
     else if (keyword == "Ridges") read_indices(keyword, mesh_.ridges);
     else if (keyword == "RequiredEdges") read_indices(keyword, mesh_.required_edges);
+    else if (keyword == "RequiredTriangles") read_indices(keyword, mesh_.required_triangles);
     else if (keyword == "Corners") read_indices(keyword, mesh_.corners);
     else if (keyword == "RequiredVertices") read_indices(keyword, mesh_.required_vertices);
     else {
@@ -103,6 +104,7 @@ private:
     check_tuples("Edges", mesh_.edges);
     check_items("Ridges", mesh_.ridges, mesh_.edges.size(), "edge");
     check_items("RequiredEdges", mesh_.required_edges, mesh_.edges.size(), "edge");
+    check_items("RequiredTriangles", mesh_.required_triangles, mesh_.triangles.size(), "triangle");
     check_items("Corners", mesh_.corners, mesh_.points.size(), "vertex");
     check_items("RequiredVertices", mesh_.required_vertices, mesh_.points.size(), "vertex");
   }
@@ -168,6 +170,7 @@ void write_sections(Writer& out, const Medit_mesh& mesh)
   write_tuples(out, "Edges", mesh.edges, mesh.edge_references);
   write_indices(out, "Ridges", mesh.ridges);
   write_indices(out, "RequiredEdges", mesh.required_edges);
+  write_indices(out, "RequiredTriangles", mesh.required_triangles);
   write_indices(out, "Corners", mesh.corners);
   write_indices(out, "RequiredVertices", mesh.required_vertices);
 }
