@@ -6,6 +6,7 @@ file(GLOB_RECURSE SMA_SOURCES CONFIGURE_DEPENDS
   include/*.h examples/*.h examples/*.cpp test/*.h test/*.cpp benchmark/*.h benchmark/*.cpp)
 set(SMA_PROGRAMS ${SMA_SOURCES})
 list(FILTER SMA_PROGRAMS INCLUDE REGEX "\\.cpp$")
+list(FILTER SMA_PROGRAMS EXCLUDE REGEX "/test/Surface_mesh_adaptation/package/") # a project of its own
 
 find_program(SMA_CLANG_FORMAT NAMES clang-format clang-format-14)
 find_program(SMA_CLANG_TIDY NAMES clang-tidy clang-tidy-14)

@@ -78,6 +78,7 @@ void solve(const Mesh& mesh, Values u, double eps, double time_step, int steps)
   for (const Vertex v : mesh.vertices()) u[v] = x[int(v.idx())];
 }
 
+//! [adapt]
 /// Adapts the mesh to `u`, whose values are those at the new vertices afterwards, and to the surface.
 SMA::Adaptation_report adapt(Mesh& mesh, Values u, std::size_t vertices)
 {
@@ -88,6 +89,7 @@ SMA::Adaptation_report adapt(Mesh& mesh, Values u, std::size_t vertices)
   field.vertices = vertices;
   return SMA::adapt_surface_mesh(mesh, field, params::vertex_attribute_maps(std::make_tuple(u)));
 }
+//! [adapt]
 
 int main(int argc, char* argv[])
 {

@@ -29,6 +29,7 @@ using Edge = Mesh::Edge_index;
 
 std::atomic<bool> is_interrupted = false;
 
+//! [visitor]
 /// Prints a line for each round, and ends the run when Ctrl-C is pressed.
 struct Progress : SMA::Adaptation_visitor
 {
@@ -39,6 +40,7 @@ struct Progress : SMA::Adaptation_visitor
   }
   bool go_on() { return !is_interrupted; }
 };
+//! [visitor]
 
 int main(int argc, char* argv[])
 {
@@ -53,12 +55,14 @@ int main(int argc, char* argv[])
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
 
   // what is kept: edges found by another package, and one vertex
+  //! [features]
   const auto is_feature = mesh.add_property_map<Edge, bool>("e:is_feature", false).first;
   PMP::detect_sharp_edges(mesh, 40, is_feature);
   const auto is_fixed = mesh.add_property_map<Vertex, bool>("v:is_fixed", false).first;
   const Vertex load = *mesh.vertices().begin();
   const Point loaded_point = mesh.point(load);
   is_fixed[load] = true;
+  //! [features]
 
   // what is asked for: small faces around that vertex, in a mesh of 8000 vertices
   const auto size = mesh.add_property_map<Vertex, double>("v:size").first;
@@ -68,10 +72,13 @@ int main(int argc, char* argv[])
     size[v] = 0.002 * diagonal + 0.02 * distance;
     temperature[v] = std::exp(-distance / diagonal);
   }
+  //! [field]
   SMA::Intersection_metric_field field(size); // of one field only: for the number of vertices and the gradation
   field.vertices = 8000;
   field.gradation = 1.3;
+  //! [field]
 
+  //! [parameters]
   Progress progress;
   const auto parameters = SMA::parameters::detect_features(false)
                             .edge_is_constrained_map(is_feature)
@@ -79,6 +86,7 @@ int main(int argc, char* argv[])
                             .vertex_attribute_maps(std::make_tuple(temperature))
                             .tolerance(0.005 * diagonal)
                             .visitor(std::ref(progress));
+  //! [parameters]
   try {
     const SMA::Adaptation_report report = SMA::adapt_surface_mesh(mesh, field, parameters);
     std::cout << report.final.vertices << " vertices, at most " << report.certified_distance / diagonal

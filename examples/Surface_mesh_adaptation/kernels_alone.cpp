@@ -38,6 +38,7 @@ int main(int argc, char* argv[])
   }
   const SMA::Uniform_metric_field field(0.02);
 
+  //! [kernels]
   std::cout << SMA::refine(mesh, field) << " edges split, until none was too long\n";
   std::cout << SMA::simplify(mesh, field, parameters::number_of_iterations(3)) << " vertices removed in 3 sweeps\n";
   Deadline deadline;
@@ -46,5 +47,6 @@ int main(int argc, char* argv[])
   // a policy in place of the default one: here on the calling thread only
   std::cout << SMA::relocate(SMA::Sequential_execution(), mesh, field, parameters::number_of_iterations(2))
             << " moves in 2 sweeps\n";
+  //! [kernels]
   return CGAL::IO::write_polygon_mesh("kernels_alone.off", mesh) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -47,6 +47,7 @@ int main()
   const auto normals = mesh.add_property_map<Vertex, Kernel::Vector_3>("v:normal").first;
   const auto shape_operators = mesh.add_property_map<Vertex, SMA::Metric_tensor_3>("v:shape_operator").first;
 
+  //! [runs]
   const auto parameters = SMA::parameters::vertex_normal_map(normals).vertex_shape_operator_map(shape_operators);
   SMA::estimate_vertex_jets(mesh, parameters); // once: from here on they are carried
   for (int cycle = 1; cycle <= 10; ++cycle) {
@@ -54,5 +55,6 @@ int main()
       SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(length), parameters);
     std::cout << "cycle " << cycle << ": " << largest_distance_from_sphere(mesh) << " off the sphere\n";
   }
+  //! [runs]
   return 0;
 }

@@ -55,10 +55,12 @@ int main(int argc, char* argv[])
   const double radius = 0.35 * std::sqrt(CGAL::squared_distance(low, corner));
 
   CGAL::make_icosahedron<Mesh, Point>(ball, corner, radius);
+  //! [pipeline]
   for (Mesh* m : {&mesh, &ball}) {
     const auto report = SMA::adapt_surface_mesh(*m, SMA::Uniform_metric_field(radius / 20));
     std::cout << report.initial.vertices << " vertices became " << report.final.vertices << '\n';
   }
+  //! [pipeline]
   if (!PMP::corefine_and_compute_difference(mesh, ball, result)) {
     std::cerr << "the difference is no manifold\n";
     return EXIT_FAILURE;

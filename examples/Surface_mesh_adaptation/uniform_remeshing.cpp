@@ -26,8 +26,10 @@ int main(int argc, char* argv[])
     return EXIT_FAILURE;
   }
   try {
+    //! [adapt]
     // in parallel if the program was built so; the result does not depend on it
     const SMA::Adaptation_report report = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(length));
+    //! [adapt]
     std::cout << report.initial.vertices << " vertices became " << report.final.vertices << "; "
               << 100 * report.final.in_range << " % of the edges have the length asked for, the mean quality is "
               << report.final.mean_quality << '\n';

@@ -20,6 +20,7 @@ namespace SMA = CGAL::Surface_mesh_adaptation;
 using Point = CGAL::Simple_cartesian<double>::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 
+//! [metric]
 /// Size 0.1 everywhere, but 0.01 across the circle z = 0.3, and ever more so towards it.
 SMA::Metric_tensor_3 front_metric(const SMA::Vector_3& p)
 {
@@ -32,6 +33,7 @@ SMA::Metric_tensor_3 front_metric(const SMA::Vector_3& p)
   const double l = 1 / (along * along), k = 1 / (across * across);
   return SMA::Metric_tensor_3(SMA::Matrix_3(l * SMA::Matrix_3::Identity() + (k - l) * d * d.transpose()));
 }
+//! [metric]
 
 int main()
 {
@@ -43,8 +45,10 @@ int main()
     mesh.point(v) = CGAL::ORIGIN + r / std::sqrt(r.squared_length());
   }
 
+  //! [field]
   const SMA::Analytic_metric_field field(front_metric);
   const SMA::Adaptation_report report = SMA::adapt_surface_mesh(mesh, field);
+  //! [field]
   std::cout << report.final.vertices << " vertices; in the metric, " << 100 * report.final.in_range
             << " % of the edges have the length asked for and the mean quality is " << report.final.mean_quality
             << "; in space, the smallest angle is " << report.final.min_angle << " degrees\n";

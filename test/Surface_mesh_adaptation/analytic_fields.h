@@ -7,7 +7,7 @@
 
 #include "shapes.h"
 
-#include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/detect_features.h>
 
 #include <functional>
 #include <string>

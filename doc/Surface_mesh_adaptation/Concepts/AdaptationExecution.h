@@ -7,9 +7,13 @@
 Runs independent tasks. Every algorithm of the package is written over `run`, with a number of tasks that does not
 depend on `concurrency()`; hence all models give the same results.
 
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Sequential_execution`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::TBB_execution`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::OpenMP_execution`
+\cgalRefines{CopyConstructible}
+
+\cgalHasModelsBegin
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Sequential_execution}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::TBB_execution}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::OpenMP_execution}
+\cgalHasModelsEnd
 */
 class AdaptationExecution
 {

@@ -7,7 +7,9 @@
 Follows a run. All functions are called from the thread that called the adaptation, between sweeps. An exception thrown
 by a visitor leaves the adaptation, and the mesh as it was.
 
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Adaptation_visitor`
+\cgalHasModelsBegin
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Adaptation_visitor}
+\cgalHasModelsEnd
 */
 class AdaptationVisitor
 {

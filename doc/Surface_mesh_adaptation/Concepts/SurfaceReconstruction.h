@@ -6,12 +6,17 @@
 
 The surface between the vertices of the input. A patch depends on its own face only: the points, normals and shape
 operators of its corners, and the tangents of the feature curves on its edges. All functions are static, and called
-concurrently.
+concurrently: of a model that is passed as a parameter, its type alone counts.
 
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Flat_reconstruction`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::PN_triangle_reconstruction`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Gregory_reconstruction`
-\cgalHasModel `CGAL::Surface_mesh_adaptation::Walton_meek_reconstruction`
+A model may have a type `Prepared_patch`, made from a `Patch`, with a member `evaluate(u, v)` that returns what the
+static function does: it is made once for many points.
+
+\cgalHasModelsBegin
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Flat_reconstruction}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::PN_triangle_reconstruction}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Gregory_reconstruction}
+\cgalHasModels{CGAL::Surface_mesh_adaptation::Walton_meek_reconstruction}
+\cgalHasModelsEnd
 */
 class SurfaceReconstruction
 {

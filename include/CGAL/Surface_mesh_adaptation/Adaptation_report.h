@@ -13,17 +13,19 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationReports
+/// @{
 
 /// Size, conformity and quality of a mesh with respect to a metric field.
 struct Mesh_statistics
 {
-  std::size_t vertices = 0;
-  std::size_t edges = 0;
-  std::size_t faces = 0;
+  std::size_t vertices = 0;  ///< number of vertices
+  std::size_t edges = 0;  ///< number of edges
+  std::size_t faces = 0;  ///< number of faces
   double in_range = 0;             ///< share of the edges with a metric length in `[1/sqrt 2, sqrt 2]`
   double mean_length = 0;          ///< mean metric length of the edges
   double mean_quality = 0;         ///< mean of `4 sqrt 3 area / sum of squared lengths`, in the metric: 1 is best
-  double min_quality = 0;
+  double min_quality = 0;  ///< of the worst face
   double min_angle = 0;            ///< smallest angle of a face in space, in degrees
   std::array<std::size_t, 10> quality_histogram{}; ///< faces with a quality in `[i/10, (i + 1)/10)`
   std::array<std::size_t, 10> length_histogram{};  ///< edges with a metric length in `[i/5, (i + 1)/5)`, last: above
@@ -33,19 +35,19 @@ struct Mesh_statistics
 struct Kernel_report
 {
   std::string kernel;              ///< "refine", "simplify", "swap", "regularize", "relocate" or "fit"
-  std::size_t round = 0;
-  std::size_t sweeps = 0;
+  std::size_t round = 0;  ///< from 0
+  std::size_t sweeps = 0;  ///< how often it went through the mesh
   std::size_t candidates = 0;      ///< elements that were examined
   std::size_t applied = 0;         ///< edges split, vertices removed, edges swapped, vertices moved
   std::size_t deferred = 0;        ///< candidates that straddled two blocks and went through claims or colours
-  double seconds = 0;
+  double seconds = 0;  ///< time that it took
 };
 
 /// What `adapt_surface_mesh` returns.
 struct Adaptation_report
 {
   std::string execution;           ///< name of the execution policy
-  int threads = 1;
+  int threads = 1;  ///< the largest number of tasks at the same time
   Mesh_statistics initial;         ///< the input in the metric asked for
   Mesh_statistics final;           ///< the output in the same metric, tightened where its faces left the surface
   std::size_t rounds = 0;          ///< rounds done
@@ -53,14 +55,14 @@ struct Adaptation_report
   std::vector<std::string> repairs; ///< what was mended in the input before, one sentence each
   std::vector<std::string> warnings; ///< what was asked for and not reached, one sentence each
   std::size_t fallback_patches = 0; ///< faces of the input over which the surface is less smooth than elsewhere
-  std::vector<Kernel_report> kernels;
+  std::vector<Kernel_report> kernels;  ///< what each kernel did in each round, in order
   std::vector<Mesh_statistics> after_round; ///< in its metric: scaled, where a number of vertices was missed
   double tolerance = 0;            ///< largest distance allowed between input and output; 0: none was asked for
   double certified_distance = 0;   ///< if one was: an upper bound of their Hausdorff distance, by 2 % of it too large
                                    ///< at most
   double deviation = 0;            ///< with the tolerance of a `Curvature_metric_field`: largest distance from the surface
                                    ///< at some places of each face, and of a vertex of the input from the faces
-  double seconds = 0;
+  double seconds = 0;  ///< time of the whole run
 
   /// Writes the report as one JSON object.
   void write_json(std::ostream& out) const;
@@ -141,6 +143,7 @@ inline void Adaptation_report::write_json(std::ostream& out) const
   out << "\n}\n";
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -9,10 +9,12 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationReports
+/// @{
 
 /// Follows a run, and can stop it; derive from it and redefine what is wanted, nothing is virtual. All calls come from
 /// the thread that called `adapt_surface_mesh`, between sweeps.
-/// \cgalModels `AdaptationVisitor`
+/// \cgalModels{AdaptationVisitor}
 struct Adaptation_visitor
 {
   /// Round `round` (from 0) of at most `rounds` begins.
@@ -27,6 +29,7 @@ struct Adaptation_visitor
   bool go_on() { return true; }
 };
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

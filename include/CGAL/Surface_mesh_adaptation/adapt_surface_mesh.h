@@ -5,6 +5,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_visitor.h>
 #include <CGAL/Surface_mesh_adaptation/driver/Adaptation_driver.h>
+#include <CGAL/Surface_mesh_adaptation/driver/check_models.h>
 #include <CGAL/Surface_mesh_adaptation/driver/in_place.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
@@ -20,6 +21,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 namespace internal {
 
@@ -69,6 +72,7 @@ template <class Domain, class MetricField, class NamedParameters>
 Adaptation_report adapt(const Any_execution& execution, const Domain& domain, const MetricField& field,
                         const NamedParameters& np)
 {
+  static_assert(check_models<typename Domain::Graph, MetricField, NamedParameters>());
   const std::size_t rounds = choose(np, CGAL::internal_np::number_of_iterations, default_number_of_rounds);
   const double shape_weight = shape_weight_of_fit(np);
   Adaptation_visitor nothing;
@@ -105,10 +109,11 @@ The result is the same to the last bit for every execution policy and number of 
 step at the end: if anything throws, it is as it was.
 
 \param execution how to run; see `execution.h`. The overload without it takes a `ConcurrencyTag` or a policy type.
-\param mesh a model of `MutableFaceGraph` with triangles as faces: an orientable 2-manifold, closed or with boundary, of
-       any number of components. Its elements are renumbered; of its property maps the vertex points and those passed below
-       are meaningful afterwards, and of the usual types those of the vertices of a `Surface_mesh`, at the vertices that are
-       still there. Coordinates are converted to `double`.
+\param mesh a model of `MutableFaceGraph` and `FaceListGraph` that lists its elements in the order in which they were
+       added once it is cleared, with triangles as faces: an orientable 2-manifold, closed or with boundary, of any
+       number of components. Its elements are renumbered; of its property maps the vertex points and those passed below
+       are meaningful afterwards, and of the usual types those of the vertices of a `Surface_mesh`, at the vertices that
+       are still there. Coordinates are converted to `double`.
 \param field what to adapt to, a model of `MetricField`: `Uniform_metric_field`, `Curvature_metric_field`,
        `Solution_metric_field`, `Analytic_metric_field`, an `Intersection_metric_field` of several, or a property map
        from vertices to sizes or to `Metric_tensor_3`.
@@ -322,6 +327,7 @@ Adaptation_report adapt_surface_mesh(TriangleMesh& mesh, const MetricField& fiel
   return adapt_surface_mesh(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }
 
+/// The same for a range of faces.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceRange, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
           class = internal::If_faces<FaceRange, TriangleMesh>>
@@ -331,6 +337,7 @@ Adaptation_report adapt_surface_mesh(const FaceRange& faces, TriangleMesh& mesh,
   return adapt_surface_mesh(typename internal::Execution_of<ConcurrencyTag>::type(), faces, mesh, field, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

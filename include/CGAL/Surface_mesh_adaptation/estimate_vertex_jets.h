@@ -3,10 +3,13 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_ESTIMATE_VERTEX_JETS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_ESTIMATE_VERTEX_JETS_H
 
+#include <CGAL/Surface_mesh_adaptation/driver/check_models.h>
 #include <CGAL/Surface_mesh_adaptation/driver/in_place.h>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 /*!
 Writes the normals and shape operators that an adaptation of `mesh` would estimate into property maps. Adaptations that
@@ -28,6 +31,7 @@ template <class Execution, class TriangleMesh, class NamedParameters>
 auto estimate_vertex_jets(const Execution& execution, const TriangleMesh& mesh, const NamedParameters& np)
   -> decltype(execution.concurrency(), void())
 {
+  static_assert(internal::check_reading<TriangleMesh, NamedParameters>());
   using Jets = internal::Carried_jets<NamedParameters>;
   static_assert(Jets::has_normals || Jets::has_shape_operators, "there is no map to write to");
   const internal::Any_execution policy(execution);
@@ -47,6 +51,7 @@ void estimate_vertex_jets(const TriangleMesh& mesh, const NamedParameters& np)
   estimate_vertex_jets(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -12,6 +12,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationReports
+/// @{
 
 namespace internal {
 
@@ -37,11 +39,12 @@ public:
 class Invalid_input_error : public Adaptation_error
 {
 public:
+  /// Says `what` of the element with that `index`; `element` is its kind, "vertex" for instance.
   Invalid_input_error(const std::string& what, const std::string& element, std::size_t index)
     : Adaptation_error(what + " (" + element + " " + std::to_string(index) + ")"), index_(index)
   {}
 
-  std::size_t index() const { return index_; }
+  std::size_t index() const { return index_; }  ///< of the first offending element
 
 private:
   std::size_t index_;
@@ -89,6 +92,7 @@ public:
 class Invalid_extent_error : public Adaptation_error
 {
 public:
+  /// \param extent largest side of the bounding box, or largest coordinate
   explicit Invalid_extent_error(double extent)
     : Adaptation_error("the extent of the mesh is " + internal::number(extent) +
                        ", not within 1e-100 and 1e100: scale it")
@@ -113,6 +117,7 @@ public:
 class Mesh_too_large_error : public Adaptation_error
 {
 public:
+  /// What a metric asks for, and what is possible.
   struct Estimate
   {
     double vertices = 0;      ///< that the metric asks for
@@ -121,6 +126,7 @@ public:
     double diagonal = 0;      ///< of the bounding box
   };
 
+  /// The metric asks for too many.
   explicit Mesh_too_large_error(const Estimate& e)
     : Adaptation_error("the metric asks for about " + internal::number(e.vertices) + " vertices, and " +
                        std::to_string(e.largest) + " are possible: its smallest size is " + internal::number(e.size) +
@@ -135,7 +141,7 @@ public:
     , estimate_{double(elements), largest, 0, 0}
   {}
 
-  const Estimate& estimate() const { return estimate_; }
+  const Estimate& estimate() const { return estimate_; }  ///< what was asked for, and what is possible
 
 private:
   Estimate estimate_;
@@ -145,6 +151,7 @@ private:
 class Tolerance_error : public Adaptation_error
 {
 public:
+  /// The upper bound that was found, and what was asked for.
   Tolerance_error(double distance, double tolerance)
     : Adaptation_error("the adapted mesh may be as far as " + internal::number(distance) +
                        " from the input, above the tolerance of " + internal::number(tolerance))
@@ -152,7 +159,7 @@ public:
   {}
 
   double distance() const { return distance_; }   ///< the upper bound that was found
-  double tolerance() const { return tolerance_; }
+  double tolerance() const { return tolerance_; }  ///< that was asked for
 
 private:
   double distance_, tolerance_;
@@ -162,16 +169,18 @@ private:
 class Io_error : public Adaptation_error
 {
 public:
+  /// Says `what` of a line, from 1, or of all of the file if `line` is 0.
   Io_error(const std::string& file, std::size_t line, const std::string& what)
     : Adaptation_error(file + (line == 0 ? "" : ":" + std::to_string(line)) + ": " + what), line_(line)
   {}
 
-  std::size_t line() const { return line_; }
+  std::size_t line() const { return line_; }  ///< from 1; 0: none
 
 private:
   std::size_t line_;
 };
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

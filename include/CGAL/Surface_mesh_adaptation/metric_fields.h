@@ -16,17 +16,20 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationMetricFields
+/// @{
 
 /// The default gradation of isotropic sizes from the curvature. With as many vertices these are as near to the surface
 /// as with `default_gradation`, and the faces are better; stretched ones are less near, so that it is not for tensors.
 constexpr double default_gradation_of_isotropic_curvature = 1.3;
 
 /// The same edge length everywhere, in the unit of the coordinates.
-/// \cgalModels `MetricField`
+/// \cgalModels{MetricField}
 struct Uniform_metric_field
 {
-  double size;
+  double size;  ///< the length of the edges
 
+  /// \throws Invalid_parameter_error if the length is not positive and finite
   explicit Uniform_metric_field(double size_) : size(size_)
   {
     if (!(size > 0) || !std::isfinite(size)) throw Invalid_parameter_error("the edge length must be positive and finite");
@@ -42,7 +45,7 @@ struct Uniform_metric_field
 ///
 /// Lengths are in the unit of the coordinates. An `hmin` above `hmax` or a `max_anisotropy` below 1 makes the adaptation
 /// throw an `Invalid_parameter_error`.
-/// \cgalModels `MetricField`
+/// \cgalModels{MetricField}
 struct Curvature_metric_field
 {
   double relative_tolerance;   ///< as a fraction of the diagonal of the bounding box; not used with `vertices`
@@ -57,6 +60,7 @@ struct Curvature_metric_field
   bool proximity = true;       ///< let sizes across narrow strips between feature curves, which are kept, fit these,
                                ///< whatever the gradation and the anisotropy (`proximity_tensors()`); if `anisotropic`
 
+  /// \throws Invalid_parameter_error if the tolerance is not positive and finite
   explicit Curvature_metric_field(double relative_tolerance_) : relative_tolerance(relative_tolerance_)
   {
     if (!(relative_tolerance > 0) || !std::isfinite(relative_tolerance))
@@ -69,11 +73,11 @@ struct Curvature_metric_field
 /// `hmax` bounds the sizes: intersect it with a `Curvature_metric_field` to keep the shape. Values that are not finite
 /// make the adaptation throw an `Invalid_field_error`.
 /// \tparam VertexScalarMap a `ReadablePropertyMap`, vertex descriptors as keys, values convertible to `double`
-/// \cgalModels `MetricField`
+/// \cgalModels{MetricField}
 template <class VertexScalarMap>
 struct Solution_metric_field
 {
-  VertexScalarMap values;
+  VertexScalarMap values;  ///< of the field
   std::size_t vertices;        ///< the number of vertices that the mesh is to have
   double norm = 2;             ///< p, at least 1: the smaller, the more weight for weak features; may be infinite
   double hmin = 0;             ///< smallest size; 0: 1e-6 diagonals of the bounding box
@@ -82,6 +86,7 @@ struct Solution_metric_field
   double gradation = default_gradation;            ///< largest ratio of the sizes at two points one size apart
   double max_anisotropy = default_max_anisotropy;  ///< largest ratio of the two sizes at a point
 
+  /// \throws Invalid_parameter_error if the number of vertices is below 4
   Solution_metric_field(VertexScalarMap values_, std::size_t vertices_) : values(std::move(values_)), vertices(vertices_)
   {
     if (vertices < 4) throw Invalid_parameter_error("the number of vertices asked for must be at least 4");
@@ -92,31 +97,34 @@ struct Solution_metric_field
 /// one of them is. The gradation of the fields does not count, that of the intersection does. Of a single field, for
 /// instance a property map, it is what bounds, grades and scales it to a number of vertices.
 /// \tparam MetricFields models of `MetricField`, property maps of the vertices included
-/// \cgalModels `MetricField`
+/// \cgalModels{MetricField}
 template <class... MetricFields>
 struct Intersection_metric_field
 {
-  std::tuple<MetricFields...> fields;
+  std::tuple<MetricFields...> fields;  ///< whose metrics are intersected
   double gradation = default_gradation;  ///< largest ratio of the sizes at two points one size apart
   std::size_t vertices = 0;    ///< if not 0, the intersection is scaled so that the mesh has so many vertices
   double hmin = 0;             ///< smallest size once it is scaled; 0: 1e-6 diagonals of the bounding box
   double hmax = 0;             ///< largest size once it is scaled; 0: the diagonal
 
+  /// \param fields_ one at least
   explicit Intersection_metric_field(MetricFields... fields_) : fields(std::move(fields_)...) {}
 };
 
 /// A formula: a function object that takes a point (`Vector_3`) and returns a size (`double`) or a `Metric_tensor_3`.
 /// It is called concurrently, and evaluated anew wherever a vertex is put, at points of the surface. A value
 /// that is not positive (definite) and finite makes the adaptation throw an `Invalid_parameter_error`.
-/// \cgalModels `MetricField`
+/// \cgalModels{MetricField}
 template <class Function>
 struct Analytic_metric_field
 {
-  Function function;
+  Function function;  ///< the formula
 
+  /// \param f called concurrently
   explicit Analytic_metric_field(Function f) : function(std::move(f)) {}
 };
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

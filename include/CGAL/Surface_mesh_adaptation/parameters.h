@@ -13,6 +13,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 namespace internal_np {
 
 enum feature_angle_t { feature_angle };
@@ -41,6 +43,7 @@ enum maximum_number_of_vertices_t { maximum_number_of_vertices };
 template <class T, class Tag, class Base = CGAL::internal_np::No_property>
 struct Adaptation_parameters : CGAL::Named_function_parameters<T, Tag, Base>
 {
+  /// \cond SKIP_IN_MANUAL
   using self = CGAL::Named_function_parameters<T, Tag, Base>;
 
   Adaptation_parameters() = default;
@@ -55,8 +58,10 @@ struct Adaptation_parameters : CGAL::Named_function_parameters<T, Tag, Base>
   }
 #include <CGAL/Surface_mesh_adaptation/driver/parameters_interface.h>
 #undef CGAL_SMA_NAMED_PARAMETER
+  /// \endcond
 };
 
+/// \cond SKIP_IN_MANUAL
 namespace parameters {
 
 inline CGAL::parameters::Default_named_parameters default_values() { return CGAL::parameters::default_values(); }
@@ -71,6 +76,8 @@ inline CGAL::parameters::Default_named_parameters default_values() { return CGAL
 #undef CGAL_SMA_NAMED_PARAMETER
 
 } // namespace parameters
+/// \endcond
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -8,6 +8,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 namespace internal {
 
@@ -64,6 +66,7 @@ std::size_t refine(TriangleMesh& mesh, const MetricField& field,
   return refine(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }
 
+/// The same for a range of faces.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceRange, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
           class = internal::If_faces<FaceRange, TriangleMesh>>
@@ -73,6 +76,7 @@ std::size_t refine(const FaceRange& faces, TriangleMesh& mesh, const MetricField
   return refine(typename internal::Execution_of<ConcurrencyTag>::type(), faces, mesh, field, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -8,6 +8,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 namespace internal {
 
@@ -65,6 +67,7 @@ std::size_t regularize(TriangleMesh& mesh, const MetricField& field,
   return regularize(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }
 
+/// The same for a range of faces.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceRange, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
           class = internal::If_faces<FaceRange, TriangleMesh>>
@@ -74,6 +77,7 @@ std::size_t regularize(const FaceRange& faces, TriangleMesh& mesh, const MetricF
   return regularize(typename internal::Execution_of<ConcurrencyTag>::type(), faces, mesh, field, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

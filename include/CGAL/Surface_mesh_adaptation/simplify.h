@@ -11,6 +11,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 /// Long faces are good ones where the surface bends in one direction only.
 constexpr double min_quality_of_approximation = 0.02;
@@ -117,6 +119,7 @@ std::size_t simplify(TriangleMesh& mesh, const MetricField& field,
   return simplify(typename internal::Execution_of<ConcurrencyTag>::type(), mesh, field, np);
 }
 
+/// The same for a range of faces.
 template <class ConcurrencyTag = CGAL::Parallel_if_available_tag, class FaceRange, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
           class = internal::If_faces<FaceRange, TriangleMesh>>
@@ -126,6 +129,7 @@ std::size_t simplify(const FaceRange& faces, TriangleMesh& mesh, const MetricFie
   return simplify(typename internal::Execution_of<ConcurrencyTag>::type(), faces, mesh, field, np);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

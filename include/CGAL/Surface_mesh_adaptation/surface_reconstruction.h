@@ -13,9 +13,11 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
 /// Flat facets: the surface is the input mesh itself.
-/// \cgalModels `SurfaceReconstruction`
+/// \cgalModels{SurfaceReconstruction}
 struct Flat_reconstruction
 {
   /// The point with barycentric coordinates `(1 - u - v, u, v)`.
@@ -37,9 +39,10 @@ struct Flat_reconstruction
 /// normals are exact. Edges on feature curves follow the tangents of the curve instead of the normals, and both faces
 /// of an edge build the same curve. An edge that leaves its tangent plane by more than 45 degrees is kept straight,
 /// for there the normals say nothing about it.
-/// \cgalModels `SurfaceReconstruction`
+/// \cgalModels{SurfaceReconstruction}
 struct PN_triangle_reconstruction
 {
+  /// The point with barycentric coordinates `(1 - u - v, u, v)`.
   static Surface_point evaluate(const Patch& p, double u, double v)
   {
     const Vector_3 &p0 = p.points[0], &p1 = p.points[1], &p2 = p.points[2];
@@ -64,6 +67,7 @@ struct PN_triangle_reconstruction
     return {position, normal / length};
   }
 
+  /// The point at parameter `t` of a feature curve between `a` and `b`.
   static Vector_3 evaluate_curve(const Vector_3& a, const Vector_3& b, const Vector_3& ta, const Vector_3& tb, double t)
   {
     const Vector_3 c = b - a, b1 = a + curve_handle(c, ta), b2 = b - curve_handle(c, tb);
@@ -106,20 +110,24 @@ private:
 /// `Gregory_patch_3`: quartic, with common tangent planes across smooth edges. With exact normals and shape operators
 /// of fourth order in the distance and third in the normals; without shape operators, or by the construction of Walton
 /// and Meek, of third and second order.
-/// \cgalModels `SurfaceReconstruction`
+/// \cgalModels{SurfaceReconstruction}
 template <Gregory_patch_3::Construction construction = Gregory_patch_3::Construction::mid_edge>
 struct Basic_gregory_reconstruction
 {
+  /// The patch, made once for many points.
   struct Prepared_patch : Gregory_patch_3
   {
+    /// \param p what it is made of
     explicit Prepared_patch(const Patch& p) : Gregory_patch_3(p, construction) {}
   };
 
+  /// The point with barycentric coordinates `(1 - u - v, u, v)`.
   static Surface_point evaluate(const Patch& p, double u, double v)
   {
     return Gregory_patch_3(p, construction).evaluate(u, v);
   }
 
+  /// The point at parameter `t` of a feature curve between `a` and `b`.
   static Vector_3 evaluate_curve(const Vector_3& a, const Vector_3& b, const Vector_3& ta, const Vector_3& tb, double t)
   {
     const internal::Cubic_handles h = internal::feature_handles(b - a, ta, tb);
@@ -129,9 +137,12 @@ struct Basic_gregory_reconstruction
   }
 };
 
+/// The default: with the shape operators.
 using Gregory_reconstruction = Basic_gregory_reconstruction<>;
+/// By the construction of Walton and Meek.
 using Walton_meek_reconstruction = Basic_gregory_reconstruction<Gregory_patch_3::Construction::walton_meek>;
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

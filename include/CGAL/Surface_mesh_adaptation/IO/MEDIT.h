@@ -31,6 +31,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFiles
+/// @{
 
 /// Whether a file of this name holds the binary form: its extension is that of `.meshb` or `.solb`, which no other
 /// form's ends like.
@@ -139,6 +141,7 @@ inline void write_medit_solution(const std::string& file, const Medit_solution& 
   internal::write_medit(file, solution);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -11,11 +11,13 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFiles
+/// @{
 
 /// How many elements of an input have a defect, and where the first one is.
 struct Soup_defect
 {
-  std::size_t count = 0;
+  std::size_t count = 0;  ///< how many have it
   std::string first; ///< as "face 12", counted from 0 as the input lists its elements; empty if there is none
 
   /// The `index`-th of its kind.
@@ -24,6 +26,7 @@ struct Soup_defect
     if (count++ == 0) first = kind + (" " + std::to_string(index));
   }
 
+  /// The same for an edge between two vertices.
   void add_edge(std::size_t source, std::size_t target)
   {
     if (count++ == 0) first = "between the vertices " + std::to_string(source) + " and " + std::to_string(target);
@@ -50,13 +53,13 @@ struct Repair_report
   Soup_defect turned_faces;           ///< look the other way in the result
   std::size_t turned_components = 0;  ///< that have such faces
   Soup_defect degenerate_faces;       ///< without area, found once all else was done
-  std::size_t removed_degenerate_faces = 0;
+  std::size_t removed_degenerate_faces = 0;  ///< of these
 
   // where the result comes from
   std::vector<std::size_t> point_of_vertex; ///< the index of the point of each vertex, in the order of the mesh
   std::vector<std::size_t> polygon_of_face; ///< the index of the polygon of each face, in the order of the mesh; `none`
                                             ///< for a face that came where some without area were removed
-  static constexpr std::size_t none = std::size_t(-1);
+  static constexpr std::size_t none = std::size_t(-1);  ///< no polygon
 
   /// Whether the input can be used as it is.
   bool is_valid() const { return offences().empty(); }
@@ -167,6 +170,7 @@ inline std::vector<std::string> Repair_report::warnings() const
   return sentences;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

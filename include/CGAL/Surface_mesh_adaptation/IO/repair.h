@@ -38,6 +38,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFiles
+/// @{
 
 /// What `repair_polygon_soup_to_triangle_mesh()` may do.
 struct Repair_options
@@ -420,6 +422,7 @@ private:
 ///
 /// What was done is counted in the report, which also says where each vertex and face comes from.
 ///
+/// \param points, polygons, options what is given, and what may be done with it
 /// \tparam Polygons a range of ranges of integers
 /// \param mesh an empty model of `MutableFaceGraph`
 /// \throws Empty_mesh_error if nothing is left, Mesh_too_large_error
@@ -433,6 +436,7 @@ Repair_report repair_polygon_soup_to_triangle_mesh(std::vector<Point> points, co
   return report;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

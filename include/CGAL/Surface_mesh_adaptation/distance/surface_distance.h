@@ -27,7 +27,10 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
+/// The corners of a triangle.
 using Triangle_points = std::array<Vector_3, 3>;
 
 /// Squared distance from `p` to the segment from `a` to `b`.
@@ -126,8 +129,8 @@ public:
   /// The place in the tree of a face of the mesh.
   std::size_t place(Index face) const { return place_[face]; }
 
-  std::size_t size() const { return triangles_.size(); }
-  const Triangle_points& operator[](std::size_t i) const { return triangles_[i]; }
+  std::size_t size() const { return triangles_.size(); }  ///< number of triangles
+  const Triangle_points& operator[](std::size_t i) const { return triangles_[i]; }  ///< the one at place `i`
 
   /// The diagonal of the bounding box.
   double extent() const { return (levels_.back()[0].high - levels_.back()[0].low).norm(); }
@@ -139,9 +142,10 @@ public:
     return (std::max)(box.low.norm(), box.high.norm());
   }
 
+  /// What `nearest()` finds.
   struct Nearest
   {
-    double squared_distance = std::numeric_limits<double>::infinity();
+    double squared_distance = std::numeric_limits<double>::infinity();  ///< of that triangle
     std::size_t triangle = 0;  ///< its place in the tree
   };
 
@@ -398,10 +402,12 @@ struct Distance_precision
   double absolute; ///< no bound is by more than this too large
   double limit;    ///< but those of distances beyond this, by a tenth
 
+  /// Bounds of distances beyond `limit_` may be coarser.
   Distance_precision(double absolute_, double limit_ = std::numeric_limits<double>::infinity())
     : absolute(absolute_), limit(limit_)
   {}
 
+  /// How much a bound of `distance` may be too large.
   double of(double distance) const { return distance > limit ? (std::max)(absolute, distance / 10) : absolute; }
 };
 
@@ -472,6 +478,7 @@ double hausdorff_distance_bound(const Execution& execution, const Triangle_tree&
                     one_sided_distance_bound(execution, b, a, precision));
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -16,21 +16,26 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFunctions
+/// @{
 
 /// Barycentric weights of three values; they are not negative and sum up to 1.
 using Attribute_weights = std::array<double, 3>;
 
-/// How the values at three vertices combine to the value between them: linearly. To be specialised for types that know
-/// no sum, and no product with a `double`.
+/// How the values at three vertices combine to the value between them: linearly; integers, `bool` and enumerations are
+/// those of the nearest vertex. There are specialisations for points, colours and `std::array`s. Specialise it for
+/// types that know no sum, and no product with a `double`.
 template <class Value, class = void>
 struct Attribute_interpolator
 {
+  /// The value between `a`, `b` and `c`.
   Value operator()(const Attribute_weights& w, const Value& a, const Value& b, const Value& c) const
   {
     return Value(w[0] * a + w[1] * b + w[2] * c);
   }
 };
 
+/// \cond SKIP_IN_MANUAL
 /// The same, exact where the values are.
 template <class Value>
 struct Attribute_interpolator<Value, std::enable_if_t<std::is_floating_point_v<Value>>>
@@ -96,7 +101,9 @@ struct Attribute_interpolator<CGAL::IO::Color>
     return Color(r[0], r[1], r[2], r[3]);
   }
 };
+/// \endcond
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

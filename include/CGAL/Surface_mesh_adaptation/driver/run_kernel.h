@@ -6,6 +6,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_DRIVER_RUN_KERNEL_H
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_visitor.h>
+#include <CGAL/Surface_mesh_adaptation/driver/check_models.h>
 #include <CGAL/Surface_mesh_adaptation/driver/in_place.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Refinement.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
@@ -21,6 +22,7 @@ template <class Execution, class Domain, class MetricField, class NamedParameter
 std::size_t run_kernel(const Execution& execution, const Domain& domain, const MetricField& field,
                        const NamedParameters& np, unsigned default_sweeps, const Make& make, const Sweep& sweep)
 {
+  static_assert(check_models<typename Domain::Graph, MetricField, NamedParameters>());
   const std::size_t max_sweeps = choose(np, CGAL::internal_np::number_of_iterations, default_sweeps);
   Adaptation_visitor nothing;
   auto visitor_parameter = choose(np, CGAL::internal_np::visitor, std::ref(nothing));

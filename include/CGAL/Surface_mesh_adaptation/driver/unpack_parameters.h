@@ -54,17 +54,17 @@ double cosine_of_normal_deviation(const NamedParameters& np, double by_default)
 template <class FaceGraph, class NamedParameters>
 auto point_map(FaceGraph& graph, const NamedParameters& np)
 {
-  return CGAL::parameters::choose_parameter(
-    CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point),
-    CGAL::get_property_map(CGAL::vertex_point, graph));
+  if constexpr (has_parameter<NamedParameters, CGAL::internal_np::vertex_point_t>)
+    return CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point);
+  else return CGAL::get_property_map(CGAL::vertex_point, graph);
 }
 
 template <class FaceGraph, class NamedParameters>
 auto point_map(const FaceGraph& graph, const NamedParameters& np)
 {
-  return CGAL::parameters::choose_parameter(
-    CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point),
-    CGAL::get_const_property_map(CGAL::vertex_point, graph));
+  if constexpr (has_parameter<NamedParameters, CGAL::internal_np::vertex_point_t>)
+    return CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_point);
+  else return CGAL::get_const_property_map(CGAL::vertex_point, graph);
 }
 
 /// Whether `put` may be called with `Map`: lvalue maps of constants say no more than that they can be read.

@@ -4,6 +4,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_EXECUTION_ANY_EXECUTION_H
 
 #include <CGAL/Surface_mesh_adaptation/execution/Interruption.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 
 #include <cstddef>
 #include <functional>
@@ -33,7 +34,7 @@ private:
 
 /// Any execution policy behind one type, so that the kernels are compiled once for all of them. A task is a chunk of
 /// thousands of elements: the indirect call costs nothing.
-/// \cgalModels `AdaptationExecution`
+/// \cgalModels{AdaptationExecution}
 class Any_execution
 {
 public:
@@ -41,7 +42,9 @@ public:
   explicit Any_execution(const Execution& execution)
     : concurrency_(execution.concurrency())
     , run_([execution](std::size_t n, const Task_reference& task) { execution.run(n, task); })
-  {}
+  {
+    static_assert(is_adaptation_execution<Execution>, "the execution policy must be a model of AdaptationExecution");
+  }
 
   /// The same, but `go_on` is asked now and then, by the thread that calls this, whether to go on.
   Any_execution interruptible(std::function<bool()> go_on) const

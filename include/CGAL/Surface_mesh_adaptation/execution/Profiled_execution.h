@@ -25,7 +25,7 @@ struct Parallel_step
 
 /// Runs tasks one after the other and records how long they take, by `std::clock()`: in the time of the processor,
 /// which does not count what other programs take meanwhile. \pre no other thread of this program runs
-/// \cgalModels `AdaptationExecution`
+/// \cgalModels{AdaptationExecution}
 class Profiled_execution
 {
 public:

@@ -35,16 +35,19 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationExecution
+/// @{
 
 /// Runs tasks one after the other on the calling thread.
-/// \cgalModels `AdaptationExecution`
+/// \cgalModels{AdaptationExecution}
 class Sequential_execution
 {
 public:
-  static constexpr const char* name = "sequential";
+  static constexpr const char* name = "sequential";  ///< for reports
 
-  int concurrency() const { return 1; }
+  int concurrency() const { return 1; }  ///< one task at a time
 
+  /// Calls `task(i)` for `i` in `[0, number_of_tasks)`, in order.
   template <class Task>
   void run(std::size_t number_of_tasks, const Task& task) const
   {
@@ -55,12 +58,13 @@ public:
 #ifdef CGAL_LINKED_WITH_TBB
 /// Runs tasks on `threads` threads of oneTBB (0: as many as TBB would use by itself). While the policy lives, it raises
 /// the limit of the process if that is lower.
-/// \cgalModels `AdaptationExecution`
+/// \cgalModels{AdaptationExecution}
 class TBB_execution
 {
 public:
-  static constexpr const char* name = "tbb";
+  static constexpr const char* name = "tbb";  ///< for reports
 
+  /// \param threads how many; 0: as many as TBB would use by itself
   explicit TBB_execution(int threads = 0)
   {
     using Limit = tbb::global_control;
@@ -70,8 +74,9 @@ public:
     arena_ = std::make_shared<tbb::task_arena>(threads > 0 ? threads : int(tbb::task_arena::automatic));
   }
 
-  int concurrency() const { return arena_->max_concurrency(); }
+  int concurrency() const { return arena_->max_concurrency(); }  ///< number of threads
 
+  /// Calls `task(i)` for `i` in `[0, number_of_tasks)`, on these threads.
   template <class Task>
   void run(std::size_t number_of_tasks, const Task& task) const
   {
@@ -91,16 +96,18 @@ private:
 
 #ifdef _OPENMP
 /// Runs tasks on `threads` threads of OpenMP (0: as many as `omp_get_max_threads()` says).
-/// \cgalModels `AdaptationExecution`
+/// \cgalModels{AdaptationExecution}
 class OpenMP_execution
 {
 public:
-  static constexpr const char* name = "openmp";
+  static constexpr const char* name = "openmp";  ///< for reports
 
+  /// \param threads how many; 0: as many as `omp_get_max_threads()` says
   explicit OpenMP_execution(int threads = 0) : threads_(threads > 0 ? threads : omp_get_max_threads()) {}
 
-  int concurrency() const { return threads_; }
+  int concurrency() const { return threads_; }  ///< number of threads
 
+  /// Calls `task(i)` for `i` in `[0, number_of_tasks)`, on these threads.
   template <class Task>
   void run(std::size_t number_of_tasks, const Task& task) const
   {
@@ -152,6 +159,20 @@ template <> struct Execution_of<CGAL::Parallel_tag> { using type = OpenMP_execut
 template <class T, class = void> constexpr bool is_execution = false;
 template <class T> constexpr bool is_execution<T, std::void_t<decltype(std::declval<const T&>().concurrency())>> = true;
 
+/// A task as it could be.
+struct Any_task
+{
+  void operator()(std::size_t) const {}
+};
+
+/// Whether `T` is a model of `AdaptationExecution`.
+template <class T, class = void> constexpr bool is_adaptation_execution = false;
+template <class T>
+constexpr bool is_adaptation_execution<T, std::void_t<
+  decltype(int(std::declval<const T&>().concurrency())), decltype(static_cast<const char*>(T::name)),
+  decltype(std::declval<const T&>().run(std::size_t(), std::declval<const Any_task&>()))>> =
+  std::is_copy_constructible_v<T>;
+
 } // namespace internal
 
 /// Whether a run is to stop and what its sweeps have not begun may be left out: never, for a policy of a user.
@@ -171,6 +192,7 @@ constexpr std::size_t heavy_chunk_length = 16;
 /// The same for writing or copying (less than a nanosecond an index).
 constexpr std::size_t fill_chunk_length = 16384;
 
+/// In how many chunks of this length `n` indices are.
 inline std::size_t number_of_chunks(std::size_t n, std::size_t chunk_length)
 {
   return (n + chunk_length - 1) / chunk_length;
@@ -288,6 +310,7 @@ std::vector<std::uint32_t> pack(const Execution& execution, std::size_t n, const
   });
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -16,6 +16,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationExecution
+/// @{
 
 /// Lets this process keep the memory that it frees, for what it needs next. It concerns the whole program, so it is up
 /// to `main()`, before the first adaptation; no function of this package calls it. Without effect where the C library
@@ -28,6 +30,7 @@ inline void keep_freed_memory() noexcept
 #endif
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

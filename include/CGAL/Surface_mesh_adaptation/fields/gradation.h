@@ -23,6 +23,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationMetricFields
+/// @{
 
 /// Ratio of the sizes at two points one size apart, unless said otherwise (the value of the paper).
 constexpr double default_gradation = 1.5;
@@ -173,6 +175,7 @@ void apply_gradation(const Execution& execution, const Mesh_view& mesh, const st
   internal::Tensor_gradation(mesh, points, normals, ratio, tensors).run(execution);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -19,6 +19,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationMetricFields
+/// @{
 
 /// The second derivatives along the surface of a field at a vertex.
 struct Hessian_estimate
@@ -77,6 +79,7 @@ inline Hessian_estimate hessian_of_sector(const Mesh_view& mesh, const std::vect
 /// tangent plane on the two rings around the vertex that can be reached without crossing a feature, through the value
 /// at the vertex: of second order, at boundaries as well; quadratic where there are too few neighbours.
 ///
+/// \param execution, mesh, points, values the mesh, and the values of the field at its vertices
 /// \param normals unit normals of the sectors, as `Corner_normals` or, to keep the order, `Corner_jets`; the result is
 ///        indexed like `normals.normals`
 /// \pre `mesh.curve` is set (Features.h), all points are finite
@@ -103,6 +106,7 @@ Buffer<Hessian_estimate> estimate_hessians(const Execution& execution, const Mes
   return hessians;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

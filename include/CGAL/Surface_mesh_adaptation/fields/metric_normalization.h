@@ -24,6 +24,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationMetricFields
+/// @{
 
 /// What a metric measures on a surface, over the area and along the boundary.
 struct Metric_complexity
@@ -158,7 +160,7 @@ Metric_complexity complexity(const Execution& execution, const Mesh_view& mesh, 
 struct Scalable_metric
 {
   std::vector<Metric_tensor_3> tensors;  ///< positive definite, or zero
-  Size_bounds bounds;
+  Size_bounds bounds;  ///< of the sizes
   double gradation = default_gradation;  ///< at most 1: off
   std::vector<Metric_tensor_3> fixed = {}; ///< at any scale, as `tensors`, or empty: counts for tensors, not for sizes
 };
@@ -334,6 +336,7 @@ std::vector<Value> normalize_to_vertex_count(const Execution& execution, const M
   return values;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

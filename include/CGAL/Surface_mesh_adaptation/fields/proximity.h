@@ -22,6 +22,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationMetricFields
+/// @{
 
 namespace internal {
 
@@ -126,6 +128,7 @@ std::vector<Metric_tensor_3> proximity_tensors(const Execution& execution, const
   return result;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -22,8 +22,12 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
+/// Number of a vertex, halfedge or face.
 using Index = std::uint32_t;
+/// None.
 constexpr Index no_index = ~Index(0);
 
 /// Most faces that can be numbered: their halfedges, three for each, by 31 bits.
@@ -42,11 +46,16 @@ struct Curve_ranges
   Index end_of_protected = no_curve;   ///< those from `first_smooth` up to here are protected and drawn
   Index first_plane_border = no_curve; ///< those from `first_smooth` up to here are drawn
 
+  /// Whether it parts smooth sectors.
   bool is_crease(Index curve) const { return curve < first_smooth; }
+  /// Whether its edges stay in one piece.
   bool is_protected(Index curve) const { return curve >= first_protected && curve < end_of_protected; }
+  /// Whether it is on the surface, where that is.
   bool is_drawn(Index curve) const { return curve >= first_smooth && curve < first_plane_border; }
 };
 
+/// A triangulated surface as a table of corners. The halfedge `3f + i` leaves corner `i` of face `f` towards its corner
+/// `i + 1`. Removed elements stay as holes that are marked.
 class Mesh_view
 {
 public:
@@ -58,37 +67,37 @@ public:
   Buffer<Index> outgoing;  ///< a halfedge that leaves each vertex: on the boundary the one without twin;
                                 ///< `no_index` for removed vertices
 
-  std::size_t number_of_vertices() const { return outgoing.size(); }
-  std::size_t number_of_halfedges() const { return corner.size(); }
-  std::size_t number_of_faces() const { return corner.size() / 3; }
+  std::size_t number_of_vertices() const { return outgoing.size(); }  ///< holes included
+  std::size_t number_of_halfedges() const { return corner.size(); }  ///< holes included
+  std::size_t number_of_faces() const { return corner.size() / 3; }  ///< holes included
 
-  static Index face(Index h) { return h / 3; }
-  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+  static Index face(Index h) { return h / 3; }  ///< of the halfedge `h`
+  static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }  ///< in its face
+  static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }  ///< in its face
 
-  Index source(Index h) const { return corner[h]; }
-  Index target(Index h) const { return corner[next(h)]; }
+  Index source(Index h) const { return corner[h]; }  ///< where `h` starts
+  Index target(Index h) const { return corner[next(h)]; }  ///< where `h` ends
   /// The vertex across the halfedge in its face.
   Index apex(Index h) const { return corner[previous(h)]; }
   /// The end of the halfedge that is not `v`.
   Index other_end(Index h, Index v) const { return source(h) == v ? target(h) : source(h); }
 
-  bool is_border(Index h) const { return twin[h] == no_index; }
-  bool is_feature(Index h) const { return curve[h] != no_curve; }
+  bool is_border(Index h) const { return twin[h] == no_index; }  ///< whether it has no twin
+  bool is_feature(Index h) const { return curve[h] != no_curve; }  ///< whether it lies on a curve
   /// Whether `h` is a feature that parts smooth sectors.
   bool is_crease(Index h) const { return curves.is_crease(curve[h]); }
   /// Whether the edge of `h` stays in one piece.
   bool is_protected(Index h) const { return curves.is_protected(curve[h]); }
   /// Whether the edge of `h` is on a curve that has a shape of its own.
   bool is_shaped(Index h) const { return is_feature(h) && !curves.is_drawn(curve[h]); }
-  bool has_labels() const { return !label.empty(); }
-  bool is_removed_vertex(Index v) const { return outgoing[v] == no_index; }
-  bool is_removed_face(Index f) const { return corner[3 * std::size_t(f)] == no_index; }
-  bool is_border_vertex(Index v) const { return is_border(outgoing[v]); }
+  bool has_labels() const { return !label.empty(); }  ///< of faces
+  bool is_removed_vertex(Index v) const { return outgoing[v] == no_index; }  ///< whether it is a hole
+  bool is_removed_face(Index f) const { return corner[3 * std::size_t(f)] == no_index; }  ///< whether it is a hole
+  bool is_border_vertex(Index v) const { return is_border(outgoing[v]); }  ///< whether it is on the boundary
 
   /// Whether `h` speaks for its edge: the smaller of the two halfedges.
   bool is_edge_owner(Index h) const { return h < twin[h]; }
-  Index edge_owner(Index h) const { return h < twin[h] ? h : twin[h]; }
+  Index edge_owner(Index h) const { return h < twin[h] ? h : twin[h]; }  ///< that of the edge of `h`
 
   /// The next halfedge that leaves the source of `h`, counterclockwise; `no_index` past the last of an open fan.
   Index rotated_ccw(Index h) const { return twin[previous(h)]; }
@@ -152,6 +161,7 @@ public:
     return h != no_index ? h : halfedge(w, v);
   }
 
+  /// Whether an edge joins them.
   bool are_adjacent(Index v, Index w) const { return halfedge(v, w) != no_index || halfedge(w, v) != no_index; }
 
   /// Sets the curve of the edge of `h` on both sides.
@@ -209,11 +219,13 @@ public:
   /// only one, so the vertex that vanishes may be its source or its target.
   struct Directed_edge
   {
-    Index h = no_index;
-    bool source_vanishes = true;
+    Index h = no_index;  ///< of the edge
+    bool source_vanishes = true;  ///< else its target
   };
 
+  /// The end of `e` that goes.
   Index vanishing_vertex(const Directed_edge& e) const { return e.source_vanishes ? source(e.h) : target(e.h); }
+  /// The end of `e` that stays.
   Index kept_vertex(const Directed_edge& e) const { return e.source_vanishes ? target(e.h) : source(e.h); }
 
   /// Merges the vanishing vertex of `e` into the kept one; that vertex and the faces of the edge become holes.
@@ -295,6 +307,7 @@ private:
   bool can_lose_an_edge(Index v) const { return degree(v) > (is_border_vertex(v) ? 2u : 3u); }
 };
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -15,6 +15,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationMetricFields
+/// @{
 
 /// The L^p norm of interpolation errors, in the mean over equilateral triangles of all orientations.
 ///
@@ -29,7 +31,7 @@ public:
   /// \param p the exponent; may be infinite \pre `p >= 1`
   explicit Interpolation_norm(double p) : p_(p), saddle_error_(error_on_saddles(p)) {}
 
-  double exponent() const { return p_; }
+  double exponent() const { return p_; }  ///< p
 
   /// The error for the Hessian `diag(1, r)` over that for `diag(1, 1)`: `sqrt(a^2 + s^2 b^2)`, where `s` is its value
   /// for `r = -1`. Exact for `p = 2`, where the two terms are orthogonal; in between up to 10 % above for `p = 1`, 7 %
@@ -77,6 +79,7 @@ inline Metric_tensor_3 multiscale_tensor(const Metric_tensor_3& hessian, const I
   return c * std::pow(c * c * determinant, -1 / (2 * norm.exponent() + 2)) * m;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -15,6 +15,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationMetricFields
+/// @{
 
 /// A metric tensor: the edge `e` has the length `sqrt(e^T M e)` in the metric, and an edge is as long as asked for
 /// when that length is 1. The eigenvalue `l` along a direction asks for the size `1/sqrt(l)` along it.
@@ -33,6 +35,7 @@ public:
     return Metric_tensor_3(l, 0, l, 0, 0, l);
   }
 
+  /// Its coefficients.
   Metric_tensor_3(double xx, double xy, double yy, double xz, double yz, double zz)
     : c_{xx, xy, yy, xz, yz, zz}
   {}
@@ -45,6 +48,7 @@ public:
   /// Coefficient `i` in MEDIT's order.
   double operator[](int i) const { return c_[i]; }
 
+  /// Both of its triangles.
   Matrix_3 matrix() const
   {
     Matrix_3 m;
@@ -62,24 +66,28 @@ public:
                     c_[3] * u[0] + c_[4] * u[1] + c_[5] * u[2]);
   }
 
-  double dot(const Vector_3& u, const Vector_3& v) const { return u.dot(*this * v); }
-  double squared_length(const Vector_3& u) const { return dot(u, u); }
-  double length(const Vector_3& u) const { return std::sqrt(squared_length(u)); }
+  double dot(const Vector_3& u, const Vector_3& v) const { return u.dot(*this * v); }  ///< `u^T M v`
+  double squared_length(const Vector_3& u) const { return dot(u, u); }  ///< of `u` in the metric
+  double length(const Vector_3& u) const { return std::sqrt(squared_length(u)); }  ///< of `u` in the metric
 
+  /// Adds the coefficients.
   Metric_tensor_3& operator+=(const Metric_tensor_3& o)
   {
     for (int i = 0; i < 6; ++i) c_[i] += o.c_[i];
     return *this;
   }
 
+  /// The sum of the coefficients.
   friend Metric_tensor_3 operator+(Metric_tensor_3 a, const Metric_tensor_3& b) { return a += b; }
 
+  /// All coefficients times `s`.
   friend Metric_tensor_3 operator*(double s, Metric_tensor_3 a)
   {
     for (double& c : a.c_) c *= s;
     return a;
   }
 
+  /// Whether all coefficients are equal.
   friend bool operator==(const Metric_tensor_3& a, const Metric_tensor_3& b)
   {
     for (int i = 0; i < 6; ++i)
@@ -94,8 +102,8 @@ private:
 /// Eigenvalues in increasing order and the orthonormal eigenvectors as columns.
 struct Eigen_decomposition_3
 {
-  Vector_3 values;
-  Matrix_3 vectors;
+  Vector_3 values;  ///< in increasing order
+  Matrix_3 vectors;  ///< orthonormal, as columns
 };
 
 /// Iterative (QL) decomposition: keeps the relative accuracy of small eigenvalues far better than a closed form.
@@ -155,6 +163,7 @@ inline Metric_tensor_3 log_euclidean_interpolation(const Metric_tensor_3& a, con
   return exp((1 - t) * log(a) + t * log(b));
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

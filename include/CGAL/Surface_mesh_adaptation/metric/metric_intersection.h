@@ -15,6 +15,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationMetricFields
+/// @{
 
 /// The largest metric whose unit ball lies in both unit balls, by simultaneous reduction. Commutative and
 /// idempotent, not associative. In the form `R max(1, R^-1 B R^-T) R^T` with a root `R R^T` of `A`, here the factor of
@@ -66,6 +68,7 @@ Metric_tensor_3 intersection_of_all(const Metrics& metrics)
   return result;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

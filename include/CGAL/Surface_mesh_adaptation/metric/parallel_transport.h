@@ -20,10 +20,13 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
 /// The rotation of least angle that takes the unit vector `from` to the unit vector `to`:
-/// `c I + [x] + x x^T / (1 + c)` with `x = from x to`, `c = from . to`; the identity if they are opposite, where it is
-/// not unique. Needs no more than the normals: the transport along the great circle between them on the Gauss map.
+/// `c I + [x] + x x^T / (1 + c)`, where `x` is their cross product and `c` their scalar product; the identity if they
+/// are opposite, where it is not unique. Needs no more than the normals: the transport along the great circle between
+/// them on the Gauss map.
 inline Matrix_3 minimal_rotation(const Vector_3& from, const Vector_3& to)
 {
   const double c = from.dot(to);
@@ -101,6 +104,7 @@ private:
   double weight_ = 0;
 };
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

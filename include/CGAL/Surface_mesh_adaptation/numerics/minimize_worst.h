@@ -23,16 +23,19 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
+/// A vector of the plane.
 using Vector_2 = Eigen::Vector2d;
 
 /// `d -> value + gradient . d`
 struct Linear_function_2
 {
-  double value;
-  Vector_2 gradient;
+  double value;  ///< at the origin
+  Vector_2 gradient;  ///< everywhere
 
-  double operator()(const Vector_2& d) const { return value + gradient.dot(d); }
+  double operator()(const Vector_2& d) const { return value + gradient.dot(d); }  ///< the value at `d`
 };
 
 /// The largest of the functions at `d`. \pre there is one
@@ -111,6 +114,7 @@ inline Vector_2 minimize_maximum(const Ring<Linear_function_2>& functions, doubl
 /// Lowers the largest of some functions at `x` by at most `rounds` steps, or until it is no more than `enough`.
 /// \param x where to start and, afterwards, the best point found: `worst(x)` never increases
 /// \param radius half side of the square in which the first step ends; it adapts to what the steps bring
+/// \param rounds, enough when to end
 /// \param linearized `linearized(x)` returns the expansions of the functions at `x`, a `Ring<Linear_function_2>`
 /// \param moved `moved(x, d)` returns the point that the vector `d` leads to from `x`
 /// \param worst `worst(x)` returns the largest of the functions, infinite where `x` is not allowed
@@ -138,6 +142,7 @@ void minimize_worst(Point& x, double radius, int rounds, double enough, const Li
   }
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -17,6 +17,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
 /// How a vertex may move: on the surface, along its feature curve, or not at all.
 enum class Vertex_class : std::uint8_t { smooth, curve, corner };
@@ -24,15 +26,15 @@ enum class Vertex_class : std::uint8_t { smooth, curve, corner };
 /// A chain of feature edges from corner to corner, or closed without a corner (first and last vertex equal).
 struct Feature_curve
 {
-  std::vector<Index> vertices;
+  std::vector<Index> vertices;  ///< from end to end
   std::vector<double> arc_length;  ///< of each vertex from the first, along the chords
   std::vector<Vector_3> tangents;  ///< unit, in the direction of the chain
   std::vector<std::array<Vector_3, 2>> ends; ///< tangents at the ends of each edge: as above, or the direction of the
                                              ///< edge where the curve stays on it
   bool closed = false;             ///< whether the chain is a cycle that no corner interrupts
 
-  bool is_closed() const { return closed; }
-  double length() const { return arc_length.back(); }
+  bool is_closed() const { return closed; }  ///< the same, as a question
+  double length() const { return arc_length.back(); }  ///< of the chords
 
   /// The edge of the chain that contains arc length `s`.
   std::size_t segment(double s) const
@@ -52,8 +54,8 @@ struct Feature_curve
 /// The place of a curve vertex on its curve.
 struct Curve_node
 {
-  Index curve = no_curve;
-  Index index = 0;
+  Index curve = no_curve;  ///< which one
+  Index index = 0;  ///< of the vertex in it
 };
 
 /// What a user asks of an edge.
@@ -67,20 +69,21 @@ enum class Edge_constraint : std::uint8_t {
 /// What the user asks for and constrains; entries are per element of the mesh view, empty for "none".
 struct Feature_parameters
 {
-  bool detect_ridges = true;
+  bool detect_ridges = true;  ///< else only boundaries and what is constrained are features
   double ridge_angle = 45;    ///< degrees: an edge is a ridge if the normals of its faces differ by more
   double corner_angle = 60;   ///< degrees: a curve that turns by more at a vertex has a corner there
   bool smooth_borders = false; ///< whether planes keep their outlines where something curved joins them smoothly
   std::vector<Edge_constraint> halfedge_constraint; ///< the same on both sides
-  std::vector<std::uint8_t> vertex_is_constrained;
+  std::vector<std::uint8_t> vertex_is_constrained;  ///< vertices that are corners
 };
 
+/// All features of a mesh.
 struct Features
 {
-  std::vector<Vertex_class> vertex_class;
+  std::vector<Vertex_class> vertex_class;  ///< of each vertex
   std::vector<Curve_node> node_of_vertex;  ///< of curve vertices; of a closed chain's first vertex, index 0
-  std::vector<Feature_curve> curves;
-  Facets facets;
+  std::vector<Feature_curve> curves;  ///< all of them
+  Facets facets;  ///< of CAD tessellations
 
   /// Unit tangent, in the direction of the chain, of `curve` at the vertex `v` of its edge between `v` and `w`.
   const Vector_3& tangent(Index curve, Index v, Index w) const
@@ -92,6 +95,7 @@ struct Features
   }
 };
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

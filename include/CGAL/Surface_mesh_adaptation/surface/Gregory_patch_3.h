@@ -17,6 +17,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
 /// The quartic Gregory patch of Walton and Meek (A triangular G1 patch from boundary curves, 1996) over the cubic
 /// boundary curves of numerics/cubic_curve.h. It interpolates corners and corner normals; two patches that share a
@@ -45,13 +47,17 @@ public:
     walton_meek   ///< mean of the conormals at the ends: third and second order. The curve has the least integral of
                   ///< its squared second derivative
   };
+  /// What the curve over an edge is: a cubic by the normals, one by the tangents of a feature, or the chord.
   enum class Curve : std::uint8_t { smooth, feature, straight };
+  /// What the inside is: that of a Gregory patch, or of a cubic triangle.
   enum class Interior : std::uint8_t { gregory, cubic };
 
   /// A point of the patch and its derivatives by the barycentric coordinates `u` and `v`.
   struct Derivatives
   {
-    Vector_3 point, du, dv;
+    Vector_3 point;  ///< itself
+    Vector_3 du;     ///< by `u`
+    Vector_3 dv;     ///< by `v`
   };
 
   /// \pre the normals are unit vectors, and so are the tangents of the feature edges
@@ -88,7 +94,7 @@ public:
     return {b.point(), unit_normal((b.r[1] - b.r[0]).cross(b.r[2] - b.r[0]), u, v)};
   }
 
-  Vector_3 normal(double u, double v) const { return evaluate(u, v).normal; }
+  Vector_3 normal(double u, double v) const { return evaluate(u, v).normal; }  ///< that of `evaluate()`
 
   /// Control point `i`, from 0 to 4, of the curve over the edge from corner `edge` to the next.
   const Vector_3& control_point(std::size_t edge, std::size_t i) const
@@ -96,8 +102,8 @@ public:
     return i == 0 ? corners_[edge] : i == 4 ? corners_[(edge + 1) % 3] : edges_[edge][i - 1];
   }
 
-  Curve curve(std::size_t edge) const { return curves_[edge]; }
-  Interior interior() const { return interior_; }
+  Curve curve(std::size_t edge) const { return curves_[edge]; }  ///< what the curve of an edge is
+  Interior interior() const { return interior_; }  ///< what the interior is
 
 private:
   using Handles = internal::Cubic_handles;
@@ -287,6 +293,7 @@ private:
   Interior interior_;
 };
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -12,10 +12,13 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
+/// A point of a surface with the normal there.
 struct Surface_point
 {
-  Vector_3 position;
+  Vector_3 position;  ///< where it is
   Vector_3 normal;  ///< unit
 };
 
@@ -23,7 +26,7 @@ struct Surface_point
 /// and `i + 1`.
 struct Patch
 {
-  std::array<Vector_3, 3> points;
+  std::array<Vector_3, 3> points;  ///< the corners
   std::array<Vector_3, 3> normals;                  ///< unit, of the smooth sector that the face belongs to
   std::array<bool, 3> is_feature{};                 ///< whether the edge lies on a feature curve
   std::array<bool, 3> is_straight{};                ///< whether the edge, no feature, is to stay on its chord
@@ -52,6 +55,7 @@ inline Patch renumbered(const Patch& p, std::size_t first)
   return q;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

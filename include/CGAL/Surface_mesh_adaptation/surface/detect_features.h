@@ -15,6 +15,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
 /// Detects the features of a mesh and writes the curve of every halfedge into `mesh.curve`. A vertex on one feature
 /// curve that does not turn sharply there is a curve vertex; one at which curves end, meet, branch or turn, which is
@@ -28,6 +30,7 @@ Features detect_features(const Execution& execution, Mesh_view& mesh, const std:
   return internal::Feature_chaining(mesh, points, parameters, marks, std::move(facets)).run(execution);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

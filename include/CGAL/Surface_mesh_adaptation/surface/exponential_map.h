@@ -19,22 +19,25 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
 /// The faces around a vertex, or those of one of its smooth sectors, counterclockwise. Neighbours share an edge.
 struct One_ring
 {
+  /// A face of the ring.
   struct Cell
   {
-    Index face;
+    Index face;  ///< which one
     std::size_t corner;  ///< of the face, at the center
     Patch patch;         ///< with the center as its corner 0, whatever the numbering of the face
   };
 
-  Ring<Cell> cells;
+  Ring<Cell> cells;  ///< counterclockwise
   bool is_closed;        ///< whether the last cell has an edge in common with the first
 
-  const Vector_3& center() const { return cells[0].patch.points[0]; }
-  const Vector_3& normal() const { return cells[0].patch.normals[0]; }
+  const Vector_3& center() const { return cells[0].patch.points[0]; }  ///< the vertex
+  const Vector_3& normal() const { return cells[0].patch.normals[0]; }  ///< unit, at the vertex
 };
 
 /// The faces around the source of `h`, as far as one gets from that of `h` without crossing a feature.
@@ -85,11 +88,13 @@ enum class Exponential_map_method : std::uint8_t
   shooting
 };
 
+/// Where a tangent vector leads to.
 struct Exponential_map_result
 {
-  Surface_point point;
+  Surface_point point;  ///< where the vector ends
   Index face;              ///< of the ring, on whose patch the point lies
-  double u, v;             ///< barycentric coordinates of its corners 1 and 2
+  double u;                ///< barycentric coordinate of its corner 1
+  double v;                ///< barycentric coordinate of its corner 2
   bool is_on_border;       ///< whether the ring ends before the vector does: then the point is on its border
 };
 
@@ -193,6 +198,7 @@ Exponential_map_result exponential_map(const One_ring& ring, const Vector_3& t,
   return internal::keep_length<Reconstruction>(ring, t).result(ring);
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

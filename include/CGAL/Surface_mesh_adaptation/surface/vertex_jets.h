@@ -27,6 +27,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationGeometry
+/// @{
 
 /// What the points are taken for.
 enum class Jet_fit
@@ -41,20 +43,24 @@ enum class Jet_fit
 /// `S n = 0`: on a sphere of radius r with outer normals it is `(I - n n^T) / r`. Unit: 1 / length.
 struct Corner_jets
 {
-  Buffer<Vector_3> normals;
-  Buffer<Metric_tensor_3> shape_operators;
+  Buffer<Vector_3> normals;  ///< unit, of each sector
+  Buffer<Metric_tensor_3> shape_operators;  ///< of each sector
   Buffer<char> agrees;      ///< whether they agree with the facets around, see `internal::Plausible_jets`
   Buffer<Index> of_corner;  ///< index into all three for each corner
 
-  /// How many sectors were settled by which fit; the rest has the normal of Max and what the normals around say.
-  std::size_t cubic_fits = 0, quadratic_fits = 0, fallbacks = 0;
+  /// How many sectors were settled by this fit; the rest has the normal of Max and what the normals around say.
+  std::size_t cubic_fits = 0;
+  std::size_t quadratic_fits = 0;  ///< the same
+  std::size_t fallbacks = 0;  ///< the rest
 
+  /// The normal and the shape operator of a sector.
   struct Jet
   {
-    const Vector_3& normal;
-    const Metric_tensor_3& shape_operator;
+    const Vector_3& normal;  ///< unit
+    const Metric_tensor_3& shape_operator;  ///< `dn`
   };
 
+  /// Those of the sector of a corner of a face.
   Jet at(Index corner) const { return {normals[of_corner[corner]], shape_operators[of_corner[corner]]}; }
 };
 
@@ -321,6 +327,7 @@ Corner_jets estimate_jets(const Execution& execution, const Mesh_view& mesh, con
   return jets;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -20,12 +20,15 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationTasks
+/// @{
 
+/// Colours from 0 on.
 struct Graph_coloring
 {
   std::vector<std::uint32_t> color;  ///< of each node
-  std::uint32_t number_of_colors = 0;
-  std::size_t rounds = 0;
+  std::uint32_t number_of_colors = 0;  ///< colours are less
+  std::size_t rounds = 0;  ///< passes that it took
 };
 
 namespace internal {
@@ -127,6 +130,7 @@ inline std::vector<std::vector<std::uint32_t>> color_classes(const Graph_colorin
   return classes;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -20,6 +20,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationTasks
+/// @{
 
 /// Mixes the bits of `x` (the finaliser of a 64-bit multiplicative hash): equal ids give equal, unrelated numbers.
 inline std::uint64_t hash_of_id(std::uint64_t x)
@@ -53,6 +55,7 @@ public:
     for_each_index(execution, size_, [&](std::size_t i) { release(i); }, fill_chunk_length);
   }
 
+  /// Writes `priority`, unless the resource is held by a lesser one. May be called concurrently.
   void reserve(std::size_t resource, std::uint64_t priority)
   {
     std::uint64_t held = slots_[resource].load(std::memory_order_relaxed);
@@ -60,11 +63,13 @@ public:
            !slots_[resource].compare_exchange_weak(held, priority, std::memory_order_relaxed)) {}
   }
 
+  /// Whether no lesser priority was written.
   bool holds(std::size_t resource, std::uint64_t priority) const
   {
     return slots_[resource].load(std::memory_order_relaxed) == priority;
   }
 
+  /// Makes the resource free.
   void release(std::size_t resource) { slots_[resource].store(~std::uint64_t(0), std::memory_order_relaxed); }
 
 private:
@@ -92,6 +97,7 @@ std::vector<std::uint32_t> independent_set(const Execution& execution, std::size
   return winners;
 }
 
+/// What `maximal_independent_set()` returns.
 struct Maximal_independent_set
 {
   std::vector<std::uint32_t> members; ///< in increasing order
@@ -133,6 +139,7 @@ Maximal_independent_set maximal_independent_set(const Execution& execution, std:
   return result;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -11,6 +11,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationTasks
+/// @{
 
 /// A maximal matching among `n` edges: its members are their indices. `ends(i)` is the pair of nodes of edge
 /// `i`, below `number_of_nodes`; `priority(i)` is unique, and less goes first.
@@ -25,6 +27,7 @@ Maximal_independent_set maximal_matching(const Execution& execution, std::size_t
   });
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

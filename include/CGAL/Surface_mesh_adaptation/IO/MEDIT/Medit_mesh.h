@@ -11,15 +11,18 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFiles
+/// @{
 
 /// The content of a `.mesh` or `.meshb` file, as far as surfaces go.
 struct Medit_mesh
 {
+  /// Elements of `N` corners each.
   template <std::size_t N>
   using Tuples = std::vector<std::array<std::uint32_t, N>>;
-  using Indices = std::vector<std::uint32_t>;
+  using Indices = std::vector<std::uint32_t>;  ///< in the order of the file, from 0
 
-  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<double, 3>> points;  ///< their coordinates
   std::vector<int> point_references;         ///< as many as points
   Tuples<3> triangles;                    ///< indices of points
   std::vector<int> triangle_references;      ///< as many as triangles
@@ -35,6 +38,7 @@ struct Medit_mesh
   std::vector<std::string> ignored_sections; ///< names of the sections that were skipped, tetrahedra for instance
 };
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 

@@ -21,6 +21,8 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+/// \addtogroup PkgSurfaceMeshAdaptationFiles
+/// @{
 
 /// Builds the empty face graph `mesh` from the triangles of `medit`: oriented consistently, without the points that
 /// no triangle uses. Ridges and required edges are marked in `edge_is_constrained`, corners and required vertices in
@@ -100,6 +102,7 @@ Medit_mesh triangle_mesh_to_medit(const TriangleMesh& mesh, EdgeIsConstrainedMap
   return medit;
 }
 
+/// @}
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL
 
