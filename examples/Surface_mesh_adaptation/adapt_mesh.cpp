@@ -12,6 +12,7 @@
 #include "adapt_mesh/mesh_files.h"
 #include "adapt_mesh/metric_files.h"
 #include "adapt_mesh/options.h"
+#include "adapt_mesh/size_parameters.h"
 #include "adapt_mesh/summary.h"
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
@@ -114,6 +115,7 @@ void run(const Options& options)
     read_mesh(options.input, mesh, {!options.no_weld, options.repair, !options.no_references});
   });
   protect_edges(options, mesh);
+  put_size_parameters(options.parameters, mesh);
   const Carried_fields fields(options, mesh);
   const Mesh input = options.quiet ? Mesh() : mesh.mesh;
   Output_metric output_metric;

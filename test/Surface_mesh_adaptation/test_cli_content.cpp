@@ -123,6 +123,23 @@ TEST_F(Content, required_elements_of_medit_files)
   }
 }
 
+TEST_F(Content, sizes_by_reference)
+{
+  const SMA::Medit_mesh in = cube_with_references(8);
+  SMA::write_medit_mesh(path("in.mesh").string(), in);
+  write(path("in.mmgs"), "Parameters\n2\n\n13 Triangle 0.01 0.05 0.1\n8 Edge 1 1 1\n");
+  for (const char* options : {"--size 0.4", "--curvature 0.01"}) {
+    expect_success(std::string("in.mesh out.mesh --quiet --parameters in.mmgs ") + options);
+    const SMA::Medit_mesh out = SMA::read_medit_mesh(path("out.mesh").string());
+    std::map<int, double> n;
+    for (const int reference : out.triangle_references) ++n[reference];
+    EXPECT_GT(n.at(13), 4 / (0.05 * 0.05 * std::sqrt(3.0) / 4) * 0.8) << options; // a side has the area 4
+    EXPECT_LT(n.at(7), 0.2 * n.at(13)) << options;                               // that opposite to it
+  }
+  write(path("in.mmgs"), "Parameters\n1\n13 Triangle many\n");
+  expect_failure(1, "in.mesh out.off --size 1 --parameters in.mmgs", "three numbers expected");
+}
+
 TEST_F(Content, boundaries_and_marked_edges_if_asked_for)
 {
   write(path("in.off"), off(shapes::open_cylinder(16, 4, 1)));

@@ -49,7 +49,8 @@ struct Options
   std::string boundary;        ///< keep or resample, empty if not given
   bool protect = false;
   bool no_references = false;
-  std::string attributes;        ///< a file
+  std::string parameters;        ///< a file
+  std::string attributes;        ///< the same
   std::string output_attributes; ///< the same
   bool no_weld = false;
   bool repair = false;
@@ -110,6 +111,8 @@ inline po::options_description described_options(Options& o)
      "ridges and other marked edges of the input stay as they are, as required ones do")
     ("no-references", po::bool_switch(&o.no_references),
      "forget labels of faces: references, groups, materials, solids; required elements count as ridges and corners")
+    ("parameters", po::value(&o.parameters)->value_name("FILE.mmgs"),
+     "bounds on the sizes by the references of the triangles, as mmgs reads them; distances there are not used")
     ("attributes", po::value(&o.attributes)->value_name("FILE.sol"),
      "fields at the vertices of the input, any number of them, to be carried to the output")
     ("output-attributes", po::value(&o.output_attributes)->value_name("FILE.sol"), "where to write these")
@@ -190,6 +193,7 @@ inline void check_consistent(const Options& o)
     throw Usage_error("--boundary must be keep or resample");
   if (o.attributes.empty() != o.output_attributes.empty())
     throw Usage_error("--attributes and --output-attributes need each other");
+  if (!o.parameters.empty() && o.no_references) throw Usage_error("--parameters contradicts --no-references");
   if (o.no_features && o.feature_angle) throw Usage_error("--feature-angle contradicts --no-features");
   if (o.shape_weight && !o.fit) throw Usage_error("--shape-weight needs --fit");
   if (o.quiet && o.verbose) throw Usage_error("--quiet contradicts --verbose");

@@ -185,6 +185,12 @@ step at the end: if anything throws, it is as it was.
                    the labels of the result are written to it}
     \cgalParamDefault{all faces have the same}
   \cgalParamNEnd
+  \cgalParamNBegin{face_size_bounds_map}
+    \cgalParamDescription{the smallest and the largest size in each face of the input; 0: no bound. Sizes grow from there
+                          as the gradation wants it. Read, not written}
+    \cgalParamType{a `ReadablePropertyMap` with the face descriptor as key and `std::pair<double, double>` as value}
+    \cgalParamDefault{no bounds}
+  \cgalParamNEnd
   \cgalParamNBegin{surface_reconstruction}
     \cgalParamDescription{the surface between the vertices of the input}
     \cgalParamType{a model of `SurfaceReconstruction`}

@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/driver/carried_jets.h>
 #include <CGAL/Surface_mesh_adaptation/driver/carried_values.h>
 #include <CGAL/Surface_mesh_adaptation/driver/domain.h>
+#include <CGAL/Surface_mesh_adaptation/driver/size_bounds.h>
 #include <CGAL/Surface_mesh_adaptation/driver/unpack_parameters.h>
 #include <CGAL/Surface_mesh_adaptation/execution/Any_execution.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
@@ -136,7 +137,10 @@ Adaptation_report adapt_uninterrupted(const Any_execution& execution, Domain& do
     values.write(surface, numbers);
     surface.release(execution);
   };
-  domain.with_input_numbers(imported, [&] { with_background(execution, field, imported, reference, adapt); });
+  const Vertex_size_bounds bounds = vertex_size_bounds(domain.graph(), imported, np);
+  domain.with_input_numbers(imported, [&] {
+    with_background_within(execution, field, imported, reference, bounds, adapt);
+  });
   const Effect_of_interruption count_all(execution.interruption(), Interruption::Effect::none);
   report.fallback_patches = reference.number_of_fallbacks(execution);
   report.threads = execution.concurrency();

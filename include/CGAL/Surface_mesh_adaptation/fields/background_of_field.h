@@ -16,6 +16,10 @@
 #include <CGAL/Surface_mesh_adaptation/metric/metric_intersection.h>
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
 
+#include <CGAL/number_utils.h>
+
+#include <boost/property_map/property_map.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -51,13 +55,31 @@ inline void check_anisotropy(double max_anisotropy)
   if (!(max_anisotropy >= 1)) throw Invalid_parameter_error("the largest anisotropy must be at least 1");
 }
 
-/// Sizes or tensors as tensors.
 /// \throws Invalid_metric_error for the first that is not positive and finite, or positive definite
+/// @{
 template <class Execution>
-std::vector<Metric_tensor_3> checked_tensors(const Execution& execution, const std::vector<double>& sizes)
+void check_metric(const Execution& execution, const std::vector<double>& sizes)
 {
   const std::size_t bad = first_invalid(execution, sizes.size(), [&](std::size_t v) { return is_valid_size(sizes[v]); });
   if (bad < sizes.size()) throw Invalid_metric_error(bad);
+}
+
+template <class Execution>
+void check_metric(const Execution& execution, const std::vector<Metric_tensor_3>& tensors)
+{
+  const std::size_t bad = first_invalid(execution, tensors.size(), [&](std::size_t v) {
+    return is_positive_definite(tensors[v]);
+  });
+  if (bad < tensors.size()) throw Invalid_metric_error(bad);
+}
+/// @}
+
+/// Sizes or tensors as tensors, once they are checked.
+/// @{
+template <class Execution>
+std::vector<Metric_tensor_3> checked_tensors(const Execution& execution, const std::vector<double>& sizes)
+{
+  check_metric(execution, sizes);
   std::vector<Metric_tensor_3> tensors(sizes.size());
   for_each_index(execution, sizes.size(), [&](std::size_t v) { tensors[v] = Metric_tensor_3::isotropic(sizes[v]); });
   return tensors;
@@ -66,12 +88,10 @@ std::vector<Metric_tensor_3> checked_tensors(const Execution& execution, const s
 template <class Execution>
 const std::vector<Metric_tensor_3>& checked_tensors(const Execution& execution, const std::vector<Metric_tensor_3>& tensors)
 {
-  const std::size_t bad = first_invalid(execution, tensors.size(), [&](std::size_t v) {
-    return is_positive_definite(tensors[v]);
-  });
-  if (bad < tensors.size()) throw Invalid_metric_error(bad);
+  check_metric(execution, tensors);
   return tensors;
 }
+/// @}
 
 /// `with_vertex_metric(execution, field, imported, reference, use)` calls `use(values)` with the sizes or tensors that
 /// `field` stands for at the vertices of the reference surface.
@@ -290,6 +310,50 @@ Metric_aims aims(const Execution& execution, const Field& field, const Reference
   return result;
 }
 
+/// Bounds of the sizes at each vertex; none at all if there are no vertices in them.
+struct Vertex_size_bounds
+{
+  std::vector<double> lower, upper;
+
+  bool empty() const { return lower.empty(); }
+};
+
+/// Puts sizes, or tensors, within bounds, and lets them grow from there as the gradation wants it.
+/// @{
+template <class Execution, class Reference>
+void put_within(const Execution& execution, const Reference& reference, const Vertex_size_bounds& bounds, double ratio,
+                std::vector<double>& sizes)
+{
+  for_each_index(execution, sizes.size(), [&](std::size_t v) {
+    sizes[v] = (std::min)((std::max)(sizes[v], bounds.lower[v]), bounds.upper[v]);
+  });
+  apply_gradation(execution, reference.mesh, reference.points, ratio, sizes);
+}
+
+template <class Execution, class Reference>
+void put_within(const Execution& execution, const Reference& reference, const Vertex_size_bounds& bounds, double ratio,
+                std::vector<Metric_tensor_3>& tensors)
+{
+  for_each_index(execution, tensors.size(), [&](std::size_t v) {
+    Eigen_decomposition_3 e = eigen_decomposition(tensors[v]);
+    for (double& l : e.values) {
+      const double size = (std::min)((std::max)(1 / std::sqrt(l), bounds.lower[v]), bounds.upper[v]);
+      l = 1 / (size * size);
+    }
+    tensors[v] = metric_tensor(e.values, e.vectors);
+  }, heavy_chunk_length);
+  apply_gradation(execution, reference.mesh, reference.points, reference.normals, ratio, tensors);
+}
+/// @}
+
+/// The gradation of sizes that are put within bounds.
+template <class Field>
+double gradation_within(const Field& field)
+{
+  if constexpr (std::is_same_v<Field, Curvature_metric_field>) return gradation(field);
+  else return default_gradation;
+}
+
 /// `with_background(execution, field, imported, reference, use)` calls `use(background)` with the metric background
 /// that `field` stands for on the reference surface.
 template <class Execution, class Import, class Reference, class Use>
@@ -316,6 +380,22 @@ void with_background(const Execution& execution, const Field& field, const Impor
   with_vertex_metric(execution, field, imported, reference, [&](auto values) {
     using Value = typename decltype(values)::value_type;
     using Metric = std::conditional_t<std::is_same_v<Value, Metric_tensor_3>, Anisotropic_metric, Isotropic_metric>;
+    const Metric_aims asked = aims(execution, field, reference, values);
+    use(Metric_background<Metric>(execution, std::move(values), asked));
+  });
+}
+
+/// The same, of a metric within `bounds`.
+template <class Execution, class Field, class Import, class Reference, class Use>
+void with_background_within(const Execution& execution, const Field& field, const Import& imported,
+                            const Reference& reference, const Vertex_size_bounds& bounds, const Use& use)
+{
+  if (bounds.empty()) return with_background(execution, field, imported, reference, use);
+  with_vertex_metric(execution, field, imported, reference, [&](auto values) {
+    using Value = typename decltype(values)::value_type;
+    using Metric = std::conditional_t<std::is_same_v<Value, Metric_tensor_3>, Anisotropic_metric, Isotropic_metric>;
+    check_metric(execution, values);
+    put_within(execution, reference, bounds, gradation_within(field), values);
     const Metric_aims asked = aims(execution, field, reference, values);
     use(Metric_background<Metric>(execution, std::move(values), asked));
   });
