@@ -2,13 +2,17 @@
 
 #include "Array_surface.h"
 
+#include "Direct_view.h"
+
 #include <CGAL/Surface_mesh_adaptation/IO/repair.h>
 #include <CGAL/Surface_mesh_adaptation/IO/triangle_soup.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
 
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace sma_python {
@@ -59,6 +63,7 @@ Array_surface::Array_surface(const Surface_arrays& input)
 void Array_surface::build(const Surface_arrays& input)
 {
   if (input.triangles.rows() == 0) throw SMA::Empty_mesh_error();
+  if (!input.weld && !input.repair && build_directly(input)) return;
   if (input.weld || input.repair) {
     const SMA::Repair_report report = SMA::repair_polygon_soup_to_triangle_mesh(
       points_of(input.points), triangles_of(input), mesh, {input.weld, input.repair});
@@ -72,6 +77,21 @@ void Array_surface::build(const Surface_arrays& input)
   point_of_vertex.resize(mesh.number_of_vertices());
   for (std::size_t i = 0; i < vertex_of_point.size(); ++i)
     if (vertex_of_point[i] != Mesh::null_vertex()) point_of_vertex[vertex_of_point[i]] = i;
+}
+
+/// Returns whether that can be done.
+bool Array_surface::build_directly(const Surface_arrays& input)
+{
+  const auto view = Direct_view(input).make();
+  if (!view) return false;
+  SMA::internal::write_connectivity(SMA::Sequential_execution(), *view, mesh);
+  for (const Vertex v : mesh.vertices()) {
+    const double* const p = input.points.row(v);
+    mesh.point(v) = Point(p[0], p[1], p[2]);
+  }
+  point_of_vertex.resize(input.points.rows);
+  std::iota(point_of_vertex.begin(), point_of_vertex.end(), std::size_t(0));
+  return true;
 }
 
 void Array_surface::constrain(const Surface_arrays& input)

@@ -38,6 +38,7 @@ struct Array_surface
 
 private:
   void build(const Surface_arrays&);
+  bool build_directly(const Surface_arrays&);
   void constrain(const Surface_arrays&);
 };
 

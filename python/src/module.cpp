@@ -194,6 +194,7 @@ void define_tools(nb::module_& m)
   m.def("bounded", [](nb::handle tensors, double hmin, double hmax) {
     return array(bounded(view<double>(tensors), hmin, hmax), {3, 3});
   });
+  m.def("check_tensors", [](nb::handle tensors) { check_tensors(view<double>(tensors)); });
   m.def("exponential_map", [](const nb::dict& request, nb::handle vertices, nb::handle vectors) {
     return tuple(without_gil(exponential_map, request, index_view(vertices), view<double>(vectors)));
   });

@@ -245,24 +245,28 @@ Metric_size measured(const Surface_arrays& input, const Options& options)
   });
 }
 
+void check_tensors(const Array_view<double>& tensors)
+{
+  for (std::size_t i = 0; i < tensors.rows; ++i)
+    if (!SMA::is_positive_definite(tensor_of(tensors.row(i)))) throw SMA::Invalid_metric_error(i);
+}
+
 std::vector<double> intersected(const Array_view<double>& a, const Array_view<double>& b)
 {
+  check_tensors(a);
+  check_tensors(b);
   std::vector<double> result(9 * a.rows);
-  for (std::size_t i = 0; i < a.rows; ++i) {
-    const Metric_tensor_3 x = tensor_of(a.row(i)), y = tensor_of(b.row(i));
-    if (!SMA::is_positive_definite(x) || !SMA::is_positive_definite(y)) throw SMA::Invalid_metric_error(i);
-    put(result, i, SMA::intersection(x, y));
-  }
+  for (std::size_t i = 0; i < a.rows; ++i)
+    put(result, i, SMA::intersection(tensor_of(a.row(i)), tensor_of(b.row(i))));
   return result;
 }
 
 std::vector<double> bounded(const Array_view<double>& tensors, double hmin, double hmax)
 {
+  check_tensors(tensors);
   std::vector<double> result(9 * tensors.rows);
   for (std::size_t i = 0; i < tensors.rows; ++i) {
-    const Metric_tensor_3 m = tensor_of(tensors.row(i));
-    if (!SMA::is_positive_definite(m)) throw SMA::Invalid_metric_error(i);
-    SMA::Eigen_decomposition_3 e = SMA::eigen_decomposition(m);
+    SMA::Eigen_decomposition_3 e = SMA::eigen_decomposition(tensor_of(tensors.row(i)));
     for (double& l : e.values) {
       const double size = std::clamp(1 / std::sqrt(l), hmin, hmax);
       l = 1 / (size * size);

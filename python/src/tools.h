@@ -55,6 +55,7 @@ Metric_size measured(const Surface_arrays&, const Options&);
 /// @{
 std::vector<double> intersected(const Array_view<double>& a, const Array_view<double>& b);
 std::vector<double> bounded(const Array_view<double>& tensors, double hmin, double hmax);
+void check_tensors(const Array_view<double>& tensors);
 /// @}
 
 /// The ends of the geodesics that leave `vertices` (k) with the `vectors` (k x 3), which are laid into the tangent

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .errors import Invalid_input_error
+from .errors import Invalid_field_error, Invalid_input_error, Invalid_metric_error, Invalid_normal_error
 
 Array = np.ndarray[Any, Any]
 
@@ -40,13 +40,22 @@ def numbers(name: str, values: Any, *shapes: tuple[int | str, ...]) -> Array:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+def refuse(name: str, array: Array, bad: Array, error: type[Invalid_input_error], expected: str) -> None:
+    """Raises `error` for the first row that is `bad`, if there is one."""
+    rows = np.flatnonzero(bad)
+    if len(rows) == 0:
+        return
+    raised = error(f"{name}: row {rows[0]} is {array[rows[0]].tolist()}, expected {expected}")
+    raised.index = int(rows[0])
+    raise raised
+
+
 def indices(name: str, values: Any, columns: int | None, limit: int | None) -> Array:
     """`values` as a contiguous array of indices below `limit`, the same one if it is that already."""
     array = np.asarray(values)
     shape: tuple[int | str, ...] = ("k",) if columns is None else ("k", columns)
-    if array.size == 0:
-        array = array.reshape((0,) + array.shape[1:] if array.ndim == len(shape) else (0,) + (columns or 0,) * (len(shape) - 1))
-        array = array.astype(np.int64)
+    if array.size == 0:  # an empty list has neither type nor shape
+        array = np.empty((0,) if columns is None else (0, columns), dtype=np.int64)
     _check(name, array, "iu", "integers", shape)
     if limit is not None and array.size > 0:
         _check_range(name, array, limit)
@@ -56,10 +65,8 @@ def indices(name: str, values: Any, columns: int | None, limit: int | None) -> A
 def _check_range(name: str, array: Array, limit: int) -> None:
     if array.min() >= 0 and array.max() < limit:
         return
-    bad = np.flatnonzero(((array < 0) | (array >= limit)).reshape(len(array), -1).any(axis=1))[0]
-    error = Invalid_input_error(f"{name}: row {bad} is {array[bad].tolist()}, and indices lie between 0 and {limit - 1}")
-    error.index = int(bad)
-    raise error
+    bad = ((array < 0) | (array >= limit)).reshape(len(array), -1).any(axis=1)
+    refuse(name, array, bad, Invalid_input_error, f"an index, 0 to {limit - 1}" if limit > 0 else "no index")
 
 
 def tensors(name: str, values: Any, rows: int) -> Array:
@@ -68,11 +75,29 @@ def tensors(name: str, values: Any, rows: int) -> Array:
     if array.ndim == 2:
         return np.ascontiguousarray(array[:, [0, 1, 3, 1, 2, 4, 3, 4, 5]].reshape(-1, 3, 3))
     skew = np.abs(array - array.transpose(0, 2, 1)).max(axis=(1, 2))
-    bad = np.flatnonzero(skew > 1e-9 * np.abs(array).max(axis=(1, 2)))
-    if len(bad) > 0:
-        error = Invalid_input_error(f"{name}: the tensor in row {bad[0]} is not symmetric")
-        error.index = int(bad[0])
-        raise error
+    refuse(name, array, skew > 1e-9 * np.abs(array).max(axis=(1, 2)), Invalid_input_error, "a symmetric tensor")
+    return array
+
+
+def sizes(name: str, values: Any, rows: int) -> Array:
+    """Positive numbers."""
+    array = numbers(name, values, (rows,))
+    refuse(name, array, ~((array > 0) & np.isfinite(array)), Invalid_metric_error, "a positive size")
+    return array
+
+
+def field(name: str, values: Any, rows: int) -> Array:
+    """Finite numbers."""
+    array = numbers(name, values, (rows,))
+    refuse(name, array, ~np.isfinite(array), Invalid_field_error, "a finite number")
+    return array
+
+
+def normals(name: str, values: Any, rows: int) -> Array:
+    """Vectors that have a direction."""
+    array = numbers(name, values, (rows, 3))
+    bad = ~(np.isfinite(array).all(axis=1) & array.any(axis=1))
+    refuse(name, array, bad, Invalid_normal_error, "a vector that is finite and not zero")
     return array
 
 

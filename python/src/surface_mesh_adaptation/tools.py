@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _core
-from ._arrays import Array, indices, numbers, tensors
-from ._arrays import evaluated as _evaluated
+from ._arrays import Array, evaluated, field, indices, numbers, sizes, tensors
 from ._meshes import Surface, surface_of
 from ._request import Request, bounded, metric_arrays, surface_request
 from .errors import Invalid_parameter_error
@@ -91,24 +90,14 @@ def estimate_hessians(points: Any, triangles: Any = None, values: Any = None, **
         Zero along the normal. Where several smooth parts meet, at features, the largest of theirs.
     """
     surface, request = _request(points, triangles, options)
-    field = numbers("values", _evaluated(values, surface.points), (len(surface.points),))
-    return Hessians(*_core.estimate_hessians(request, field))
+    at_points = field("values", evaluated(values, surface.points), len(surface.points))
+    return Hessians(*_core.estimate_hessians(request, at_points))
 
 
 def _metric_request(points: Any, triangles: Any, metric: Any, options: dict[str, Any]) -> Request:
     surface, request = _request(points, triangles, options)
-    request.update(metric_arrays("metric", _evaluated(metric, surface.points), len(surface.points)))
-    _check_metric(request)
+    request.update(metric_arrays("metric", evaluated(metric, surface.points), len(surface.points)))
     return request
-
-
-def _check_metric(request: Request) -> None:
-    if "sizes" in request:
-        bad = ~(np.isfinite(request["sizes"]) & (request["sizes"] > 0))
-        if bad.any():
-            _core.bounded(np.where(bad, np.nan, 1)[:, None, None] * np.eye(3), 0.0, np.inf)
-    else:
-        _core.bounded(request["tensors"], 0.0, np.inf)
 
 
 def gradation(points: Any, triangles: Any = None, metric: Any = None, ratio: float = 1.5, **options: Any) -> Array:
@@ -176,7 +165,7 @@ def complexity(points: Any, triangles: Any = None, metric: Any = None, **options
 def _as_tensors(name: str, metric: Any) -> Array:
     array = np.asarray(metric)
     if array.ndim == 1:
-        return numbers(name, array, ("n",))[:, None, None] ** -2.0 * np.eye(3)
+        return sizes(name, array, len(array))[:, None, None] ** -2.0 * np.eye(3)
     return tensors(name, array, len(array))
 
 

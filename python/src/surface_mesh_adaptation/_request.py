@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
-from ._arrays import Array, evaluated, indices, mask, numbers, tensors
+from ._arrays import Array, evaluated, field, indices, mask, normals, numbers, sizes, tensors
 from ._meshes import Surface
 from .errors import Invalid_parameter_error
 
@@ -17,7 +17,7 @@ Request = dict[str, Any]
 
 #: The keywords that are handed on as they are if they are given, with their types and what they must fulfil.
 _POSITIVE = ("a positive number", lambda x: math.isfinite(x) and x > 0)
-_COUNT = ("a positive whole number", lambda n: n > 0)
+_COUNT = ("a positive whole number, below 2^31", lambda n: 0 < n < 2**31)
 _AT_LEAST_1 = ("a number, at least 1", lambda x: x >= 1)
 _NUMBERS: dict[str, tuple[type, str, Any]] = {
     "curvature": (float, *_POSITIVE),
@@ -28,7 +28,7 @@ _NUMBERS: dict[str, tuple[type, str, Any]] = {
     "vertices": (int, *_COUNT),
     "max_vertices": (int, *_COUNT),
     "threads": (int, *_COUNT),
-    "iterations": (int, "a whole number, at least 0", lambda n: n >= 0),
+    "iterations": (int, "a whole number, at least 0 and below 2^31", lambda n: 0 <= n < 2**31),
     "gradation": (float, "a finite number, at least 1", lambda x: math.isfinite(x) and x >= 1),
     "max_anisotropy": (float, *_AT_LEAST_1),
     "norm": (float, *_AT_LEAST_1),
@@ -44,7 +44,7 @@ KEYWORDS = frozenset([*_NUMBERS, *_SWITCHES, *_CHOICES, *_ARRAYS, "attributes"])
 
 def _number(name: str, value: Any) -> Any:
     kind, expected, is_valid = _NUMBERS[name]
-    wrong_type = isinstance(value, (bool, np.bool_)) or not np.isscalar(value)
+    wrong_type = isinstance(value, (bool, np.bool_, str, bytes)) or not np.isscalar(value)
     try:
         number = kind(value)
         wrong_type = wrong_type or (kind is int and number != value)
@@ -103,7 +103,7 @@ def run_request(surface: Surface, options: Request) -> Request:
     given = {name: value for name, value in options.items() if value is not None}
     n = len(surface.points)
     if "normals" in given:
-        request["normals"] = numbers("normals", given["normals"], (n, 3))
+        request["normals"] = normals("normals", given["normals"], n)
     if "shape_operators" in given:
         request["shape_operators"] = tensors("shape_operators", given["shape_operators"], n)
     request.update(_metric(surface, given, request))
@@ -125,7 +125,7 @@ def _metric(surface: Surface, given: Request, request: Request) -> Request:
     n = len(surface.points)
     wanted: Request = {}
     if "field" in given:
-        wanted["field"] = numbers("field", _named("field", given["field"], surface), (n,))
+        wanted["field"] = field("field", _named("field", given["field"], surface), n)
     for name in ("size", "metric"):
         if name not in given:
             continue
@@ -149,16 +149,17 @@ def metric_arrays(name: str, value: Any, rows: int, hmin: float | None = None, h
     """Sizes or tensors within bounds, under the names that the extension module has for them."""
     array = np.asarray(value)
     if array.ndim == 1:
-        sizes = numbers(name, array, (rows,))
-        return {"sizes": sizes if hmin is None and hmax is None else np.clip(sizes, hmin, hmax)}
+        given = sizes(name, array, rows)
+        return {"sizes": given if hmin is None and hmax is None else np.clip(given, hmin, hmax)}
     if array.ndim not in (2, 3):
         numbers(name, array, (rows,), (rows, 3, 3), (rows, 6))
     return {"tensors": bounded(tensors(name, array, rows), hmin, hmax)}
 
 
 def bounded(metric: Array, hmin: float | None, hmax: float | None) -> Array:
-    """Tensors with their sizes within bounds."""
+    """Tensors with their sizes within bounds; they must be positive definite."""
     if hmin is None and hmax is None:
+        _core.check_tensors(metric)
         return metric
     return _core.bounded(metric, hmin or 0.0, hmax or math.inf)
 
