@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace sma_python {
@@ -99,12 +100,13 @@ private:
     return true;
   }
 
+  /// Inside, that of the last face around, which CGAL's functions for soups choose, too.
   bool find_outgoing()
   {
     view_.outgoing.resize(input_.points.rows);
     for (std::size_t v = 0; v < input_.points.rows; ++v) {
       if (first_[v] == first_[v + 1]) return false;
-      view_.outgoing[v] = leaving_[first_[v]];
+      view_.outgoing[v] = leaving_[first_[v + 1] - 1];
       for (std::size_t i = first_[v]; i < first_[v + 1]; ++i)
         if (view_.is_border(leaving_[i])) view_.outgoing[v] = leaving_[i];
     }
