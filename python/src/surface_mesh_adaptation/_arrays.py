@@ -40,7 +40,7 @@ def numbers(name: str, values: Any, *shapes: tuple[int | str, ...]) -> Array:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-def refuse(name: str, array: Array, bad: Array, error: type[Invalid_input_error], expected: str) -> None:
+def refuse(name: str, array: Array, bad: Any, error: type[Invalid_input_error], expected: str) -> None:
     """Raises `error` for the first row that is `bad`, if there is one."""
     rows = np.flatnonzero(bad)
     if len(rows) == 0:

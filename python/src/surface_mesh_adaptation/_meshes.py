@@ -113,12 +113,13 @@ def _of_trimesh(mesh: Any) -> Surface:
 def _to_trimesh(result: Result, material: Any, metadata: dict[str, Any]) -> Any:
     import trimesh
 
-    mesh = trimesh.Trimesh(result.points, result.triangles, process=False, metadata=metadata)
+    mesh: Any = trimesh.Trimesh(result.points, result.triangles, process=False, metadata=metadata)
     for name, values in result.attributes.items():
         if name == _COLOURS:
             mesh.visual.vertex_colors = values
         elif name == _UV:
-            mesh.visual = trimesh.visual.TextureVisuals(uv=values, material=material)
+            textured: Any = trimesh.visual.TextureVisuals
+            mesh.visual = textured(uv=values, material=material)
         else:
             mesh.vertex_attributes[name] = values
     return mesh

@@ -10,13 +10,14 @@ import numpy as np
 from ._arrays import Array
 
 if TYPE_CHECKING:
+    from ._meshes import Surface
     from .result import Result
 
 
 def edge_vectors(points: Array, triangles: Array) -> Array:
     """The sides of triangles, each opposite to the corner of its number: (m, 3, 3)."""
-    corners = points[triangles]
-    return np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)
+    corners: Array = points[triangles]
+    return np.asarray(np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1))
 
 
 def angles(points: Array, triangles: Array) -> Array:
@@ -24,7 +25,7 @@ def angles(points: Array, triangles: Array) -> Array:
     sides = edge_vectors(points, triangles)
     a, b = -np.roll(sides, -1, axis=1), np.roll(sides, -2, axis=1)
     sine = np.linalg.norm(np.cross(a, b), axis=2)
-    return np.degrees(np.arctan2(sine, (a * b).sum(axis=2)))
+    return np.asarray(np.degrees(np.arctan2(sine, (a * b).sum(axis=2))))
 
 
 def qualities(points: Array, triangles: Array) -> Array:
@@ -32,12 +33,13 @@ def qualities(points: Array, triangles: Array) -> Array:
     sides = edge_vectors(points, triangles)
     area = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2
     total = (sides**2).sum(axis=(1, 2))
-    return np.divide(4 * np.sqrt(3) * area, total, out=np.zeros_like(area), where=total > 0)
+    return np.asarray(np.divide(4 * np.sqrt(3) * area, total, out=np.zeros_like(area), where=total > 0))
 
 
 def sizes(points: Array, triangles: Array) -> Array:
     """The mean lengths of the sides of triangles."""
-    return np.linalg.norm(edge_vectors(points, triangles), axis=2).mean(axis=1)
+    lengths: Array = np.linalg.norm(edge_vectors(points, triangles), axis=2)
+    return np.asarray(lengths.mean(axis=1))
 
 
 def _polydata(points: Array, triangles: Array) -> Any:
@@ -65,11 +67,11 @@ def plotter(result: Result, color_by: str, *, off_screen: bool = False) -> Any:
     import pyvista
 
     assert result.input is not None
-    window = pyvista.Plotter(shape=(1, 2), off_screen=off_screen, window_size=(1600, 800))
-    before, after = result.input, result
-    for i, (title, mesh) in enumerate((("before", before), ("after", after))):
+    window = pyvista.Plotter(shape=(1, 2), off_screen=off_screen, window_size=[1600, 800])
+    sides: list[tuple[str, Surface | Result]] = [("before", result.input), ("after", result)]
+    for i, (title, mesh) in enumerate(sides):
         window.subplot(0, i)
-        drawn = _coloured(mesh.points, np.asarray(mesh.triangles), mesh.attributes, color_by)
+        drawn = _coloured(mesh.points, mesh.triangles, mesh.attributes, color_by)
         window.add_mesh(drawn, scalars=color_by, show_edges=True, line_width=0.5)
         window.add_text(f"{title}: {len(mesh.points)} vertices", font_size=10)
     window.link_views()

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -116,7 +116,7 @@ def adapt(
     threads: int | None = None,
     weld: bool = False,
     repair: bool = False,
-    progress: bool | Callable[..., Any] | None = None,
+    progress: bool | ProgressFunction | None = None,
     full: bool | None = None,
 ) -> Any:
     """Adapts a triangulated surface to a metric.
@@ -228,54 +228,133 @@ def adapt(
     return _run("adapt", points, triangles, options, progress, full)
 
 
-def _alone(kernel: str, what: str, extra: str = "") -> Callable[..., Any]:
-    def run(
-        points: Any,
-        triangles: Any = None,
-        *,
-        progress: bool | ProgressFunction | None = None,
-        full: bool | None = None,
-        **options: Any,
-    ) -> Any:
-        return _run(kernel, points, triangles, options, progress, full)
-
-    run.__name__ = run.__qualname__ = kernel
-    run.__doc__ = f"""{what}
+def refine(
+    points: Any,
+    triangles: Any = None,
+    *,
+    progress: bool | ProgressFunction | None = None,
+    full: bool | None = None,
+    **options: Any,
+) -> Any:
+    """Splits the edges that are longer than sqrt 2 in the metric.
 
     Parameters
     ----------
     points, triangles, progress, full
         As for `adapt`; `progress` is asked about every twentieth of a second.
     **options
-        The keywords of `adapt`, of which `iterations` is the largest number of sweeps; `fit` and `shape_weight` do not
-        count.{extra}
+        The keywords of `adapt`; `iterations` is the largest number of sweeps, `fit` and `shape_weight` do not count.
 
     Returns
     -------
     Result
         With the number of `operations`; for an object of another package, and unless `full`, an object of that kind.
     """
-    return run
+    return _run("refine", points, triangles, options, progress, full)
 
 
-_DEVIATION = """
+def simplify(
+    points: Any,
+    triangles: Any = None,
+    *,
+    progress: bool | ProgressFunction | None = None,
+    full: bool | None = None,
+    **options: Any,
+) -> Any:
+    """Collapses the edges that are shorter than 1 / sqrt 2 in the metric, or all that limits allow.
+
+    Parameters
+    ----------
+    points, triangles, progress, full
+        As for `adapt`; `progress` is asked about every twentieth of a second.
+    **options
+        The keywords of `adapt`; `iterations` is the largest number of sweeps, `fit` and `shape_weight` do not count.
     max_normal_deviation : float, optional
-        """
-
-refine = _alone("refine", "Splits the edges that are longer than sqrt 2 in the metric.")
-simplify = _alone(
-    "simplify",
-    "Collapses the edges that are shorter than 1 / sqrt 2 in the metric, or all that limits allow.",
-    _DEVIATION
-    + """The largest angle, in degrees, between the normal of a face and those of the faces that it stands for.
+        The largest angle, in degrees, between the normal of a face and those of the faces that it stands for.
     max_distance : float, optional
         The largest distance of faces from what they stand for, in the unit of the coordinates. With either limit the
-        collapses that cost least go first, and a large `size` leaves everything to the limits.""",
-)
-swap = _alone("swap", "Swaps edges to improve the worst quality of their faces, and the degrees of their vertices.")
-regularize = _alone("regularize", "Takes vertices away and puts others in where that makes the mesh more regular.")
-relocate = _alone(
-    "relocate",
-    "Moves vertices on the surface to improve the faces around them.",
-    _DEVIATION + "The largest angle, in degrees, between the tangent plane at a vertex and the faces around it.",
-)
+        collapses that cost least go first, and a large `size` leaves everything to the limits.
+
+    Returns
+    -------
+    Result
+        With the number of `operations`; for an object of another package, and unless `full`, an object of that kind.
+    """
+    return _run("simplify", points, triangles, options, progress, full)
+
+
+def swap(
+    points: Any,
+    triangles: Any = None,
+    *,
+    progress: bool | ProgressFunction | None = None,
+    full: bool | None = None,
+    **options: Any,
+) -> Any:
+    """Swaps edges to improve the worst quality of their faces, and the degrees of their vertices.
+
+    Parameters
+    ----------
+    points, triangles, progress, full
+        As for `adapt`; `progress` is asked about every twentieth of a second.
+    **options
+        The keywords of `adapt`; `iterations` is the largest number of sweeps, `fit` and `shape_weight` do not count.
+
+    Returns
+    -------
+    Result
+        With the number of `operations`; for an object of another package, and unless `full`, an object of that kind.
+    """
+    return _run("swap", points, triangles, options, progress, full)
+
+
+def regularize(
+    points: Any,
+    triangles: Any = None,
+    *,
+    progress: bool | ProgressFunction | None = None,
+    full: bool | None = None,
+    **options: Any,
+) -> Any:
+    """Takes vertices away and puts others in where that makes the mesh more regular.
+
+    Parameters
+    ----------
+    points, triangles, progress, full
+        As for `adapt`; `progress` is asked about every twentieth of a second.
+    **options
+        The keywords of `adapt`; `iterations` is the largest number of sweeps, `fit` and `shape_weight` do not count.
+
+    Returns
+    -------
+    Result
+        With the number of `operations`; for an object of another package, and unless `full`, an object of that kind.
+    """
+    return _run("regularize", points, triangles, options, progress, full)
+
+
+def relocate(
+    points: Any,
+    triangles: Any = None,
+    *,
+    progress: bool | ProgressFunction | None = None,
+    full: bool | None = None,
+    **options: Any,
+) -> Any:
+    """Moves vertices on the surface to improve the faces around them.
+
+    Parameters
+    ----------
+    points, triangles, progress, full
+        As for `adapt`; `progress` is asked about every twentieth of a second.
+    **options
+        The keywords of `adapt`; `iterations` is the largest number of sweeps, `fit` and `shape_weight` do not count.
+    max_normal_deviation : float, optional
+        The largest angle, in degrees, between the tangent plane at a vertex and the faces around it.
+
+    Returns
+    -------
+    Result
+        With the number of `operations`; for an object of another package, and unless `full`, an object of that kind.
+    """
+    return _run("relocate", points, triangles, options, progress, full)

@@ -82,11 +82,11 @@ def interpolated(values: Array, points: Array, weights: Array) -> Array:
     """`values` at the places that lie between three `points` each."""
     if not (values.dtype.kind in "fc" or _is_colour(values)):
         nearest = weights.argmax(axis=1)
-        return values[points[np.arange(len(points)), nearest]]
+        return np.asarray(values[points[np.arange(len(points)), nearest]])
     shape = (len(points),) + (1,) * (values.ndim - 1)
     w = [weights[:, i].reshape(shape) for i in range(3)]
     mean = w[0] * values[points[:, 0]] + w[1] * values[points[:, 1]] + w[2] * values[points[:, 2]]
-    return np.rint(mean).astype(np.uint8) if _is_colour(values) else mean.astype(values.dtype, copy=False)
+    return np.asarray(np.rint(mean) if _is_colour(values) else mean, dtype=values.dtype)
 
 
 def corners_of(points: Array, edges: Array, constrained: Array, corner_angle: float = 60) -> Array:

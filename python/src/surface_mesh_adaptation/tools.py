@@ -165,7 +165,7 @@ def complexity(points: Any, triangles: Any = None, metric: Any = None, **options
 def _as_tensors(name: str, metric: Any) -> Array:
     array = np.asarray(metric)
     if array.ndim == 1:
-        return sizes(name, array, len(array))[:, None, None] ** -2.0 * np.eye(3)
+        return np.asarray(sizes(name, array, len(array))[:, None, None] ** -2.0 * np.eye(3))
     return tensors(name, array, len(array))
 
 
@@ -225,7 +225,7 @@ def exponential_map(points: Any, triangles: Any, vertices: Any, vectors: Any, **
     surface, request = _request(points, triangles, options)
     start = indices("vertices", vertices, None, len(surface.points))
     ends = _core.exponential_map(request, start, numbers("vectors", vectors, (len(start), 3)))
-    return SurfacePoints(*ends[:3], ends[3].astype(bool))
+    return SurfacePoints(ends[0], ends[1], ends[2], ends[3].astype(bool))
 
 
 def surface_points(points: Any, triangles: Any, faces: Any, weights: Any, **options: Any) -> SurfacePoints:
@@ -249,4 +249,4 @@ def surface_points(points: Any, triangles: Any, faces: Any, weights: Any, **opti
     surface, request = _request(points, triangles, options)
     over = indices("faces", faces, None, len(surface.triangles))
     places = _core.surface_points(request, over, numbers("weights", weights, (len(over), 3)))
-    return SurfacePoints(*places[:3], places[3].astype(bool))
+    return SurfacePoints(places[0], places[1], places[2], places[3].astype(bool))
