@@ -5,8 +5,8 @@
     CGAL_DATA_DIR=... python compare.py [MESH...]
 
 What is not installed is left out. Each tool is asked for as many vertices as the input has; one that takes a length is
-called until it comes within 2 %, and its last call counts. Time is that of the processor, in all threads; the distance is
-from the centers and the vertices of the result to the triangles of the input.
+called until it comes within 2 %, and its last call counts. Time is that of the processor, in all threads; the distance
+is from the centers and the vertices of the result to the triangles of the input.
 """
 
 import importlib.util
@@ -27,6 +27,15 @@ from surface_mesh_adaptation._plot import angles, edge_vectors, qualities
 
 MESHES = ["bunny00.off", "elephant.off", "fandisk.off", "armadillo.off", "camel.off", "knot1.off"]
 LONGEST = 120  # seconds for a call
+COLUMNS = [
+    "",
+    "vertices",
+    "microseconds of processor per vertex",
+    "edges in range",
+    "mean quality",
+    "angle that 1 % of the faces are below",
+    "distance, rms, in millionths of the diagonal",
+]
 
 
 def this_package(points, triangles, length, _):
@@ -143,9 +152,7 @@ def main():
     signal.signal(signal.SIGALRM, give_up)
     for mesh in sys.argv[1:] or MESHES:
         points, triangles = read_off(Path(os.environ["CGAL_DATA_DIR"]) / "meshes" / mesh)
-        print(f"\n{mesh}, {len(points)} vertices\n\n| | vertices | microseconds of processor per vertex | edges in range "
-              "| mean quality | angle that 1 % of the faces are below | distance, rms, in millionths of the diagonal |\n"
-              "|" + 7 * "---|")  # fmt: skip
+        print(f"\n{mesh}, {len(points)} vertices\n\n| {' | '.join(COLUMNS)} |\n|{7 * '---|'}")
         for name, (tool, package) in TOOLS.items():
             if importlib.util.find_spec(package) is None:
                 continue

@@ -36,7 +36,15 @@ def run_in_python(file, keywords):
     start = time.perf_counter()
     result = sma.adapt(points, triangles, threads=1, **keywords)
     seconds = time.perf_counter() - start
-    arrays = [points, triangles, result.points, result.triangles, result.metric, result.source_points, result.source_weights]
+    arrays = [
+        points,
+        triangles,
+        result.points,
+        result.triangles,
+        result.metric,
+        result.source_points,
+        result.source_weights,
+    ]
     print(json.dumps({
         "seconds": seconds, "functions": result.seconds, "kernels": result.report.seconds, "memory": peak() - before,
         "arrays": sum(a.nbytes for a in arrays), "vertices": len(result.points),

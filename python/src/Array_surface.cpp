@@ -84,6 +84,7 @@ bool Array_surface::build_directly(const Surface_arrays& input)
 {
   const auto view = Direct_view(input).make();
   if (!view) return false;
+  input.poll();
   SMA::internal::write_connectivity(SMA::Sequential_execution(), *view, mesh);
   for (const Vertex v : mesh.vertices()) {
     const double* const p = input.points.row(v);
@@ -97,7 +98,8 @@ bool Array_surface::build_directly(const Surface_arrays& input)
 void Array_surface::constrain(const Surface_arrays& input)
 {
   if (!input.constrained_vertices.empty())
-    for (const Vertex v : mesh.vertices()) vertex_is_constrained[v] = input.constrained_vertices.data[point_of_vertex[v]] != 0;
+    for (const Vertex v : mesh.vertices())
+      vertex_is_constrained[v] = input.constrained_vertices.data[point_of_vertex[v]] != 0;
   if (input.constrained_edges.rows() == 0) return;
   std::vector<Vertex> vertex_of_point(input.points.rows, Mesh::null_vertex());
   for (const Vertex v : mesh.vertices()) vertex_of_point[point_of_vertex[v]] = v;

@@ -99,8 +99,7 @@ void stretch(const Options& options, Field& field)
 
 inline Curvature_field curvature_field(const Options& options, double tolerance_by_default)
 {
-  auto field =
-    configured(options, Curvature_field(options.curvature > 0 ? options.curvature : tolerance_by_default));
+  auto field = configured(options, Curvature_field(options.curvature > 0 ? options.curvature : tolerance_by_default));
   stretch(options, field);
   field.noisy = options.noisy;
   if (options.curvature == 0) field.vertices = options.vertices;
@@ -121,8 +120,7 @@ Chosen_field intersection(const Options& options, double gradation, const Fields
 template <class Map>
 Chosen_field field_of_map(const Options& options, const Map& map)
 {
-  if (options.curvature > 0)
-    return intersection(options, SMA::default_gradation, map, curvature_field(options, 0));
+  if (options.curvature > 0) return intersection(options, SMA::default_gradation, map, curvature_field(options, 0));
   if (options.vertices > 0 || options.gradation > 0) return intersection(options, 1, map);
   return {map};
 }
@@ -132,8 +130,7 @@ inline Chosen_field field_of_solution(const Options& options, const Size_map& va
   auto field = configured(options, Solution_field(values, options.vertices));
   stretch(options, field);
   if (options.norm > 0) field.norm = options.norm;
-  if (options.curvature > 0)
-    return intersection(options, SMA::default_gradation, field, curvature_field(options, 0));
+  if (options.curvature > 0) return intersection(options, SMA::default_gradation, field, curvature_field(options, 0));
   return {field};
 }
 

@@ -54,12 +54,14 @@ private:
   {
     const std::size_t nf = input_.triangles.rows();
     view_.corner.resize(3 * nf);
-    for (std::size_t f = 0; f < nf; ++f)
+    for (std::size_t f = 0; f < nf; ++f) {
+      poll(f);
       for (std::size_t j = 0; j < 3; ++j) {
         const std::int64_t v = input_.triangles.at(f, j);
         if (v < 0 || std::size_t(v) >= input_.points.rows) return false;
         view_.corner[3 * f + (j + 1) % 3] = Index(v);
       }
+    }
     return true;
   }
 
@@ -72,6 +74,13 @@ private:
     std::vector<Index> next(first_.begin(), first_.end() - 1);
     leaving_.resize(view_.corner.size());
     for (std::size_t h = 0; h < view_.corner.size(); ++h) leaving_[next[view_.corner[h]]++] = Index(h);
+  }
+
+  /// To be called for every `i`.
+  void poll(std::size_t i) const
+  {
+    constexpr std::size_t period = 1 << 16;
+    if (i % period == 0) input_.poll();
   }
 
   /// How many halfedges lead from `v` to `w`, and the last of them.
@@ -91,6 +100,7 @@ private:
   {
     view_.twin.resize(view_.corner.size());
     for (Index h = 0; h < view_.corner.size(); ++h) {
+      poll(h);
       const Index v = view_.source(h), w = view_.target(h);
       std::size_t here = 0, back = 0;
       find(v, w, here);

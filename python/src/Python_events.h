@@ -15,8 +15,8 @@ namespace sma_python {
 
 namespace nb = nanobind;
 
-/// Tells a callable of Python how far a run is, and stops the run when that returns False, when it raises an exception,
-/// or at a signal. Takes the GIL for as long as that needs.
+/// Tells a callable of Python how far a run is, and stops the run when that returns False; gives it up when that raises
+/// an exception, or a signal does. Takes the GIL for as long as that needs.
 class Python_events : public Events
 {
 public:
@@ -55,22 +55,31 @@ public:
   {
     if (is_stopped_) return false;
     const nb::gil_scoped_acquire gil;
-    if (PyErr_CheckSignals() != 0) fail(nb::python_error());
-    else tell("working", nb::dict());
+    check_signals();
+    tell("working", nb::dict());
     return !is_stopped_;
   }
 
-  /// Raises what the callable or a signal raised, if anything. To be called with the GIL.
-  void raise()
+  /// \throws Cancelled
+  void poll()
   {
-    if (error_) throw nb::python_error(std::move(*error_));
+    const nb::gil_scoped_acquire gil;
+    check_signals();
   }
 
+  /// Raises what the callable or a signal raised. To be called with the GIL. \pre `Cancelled` was thrown
+  [[noreturn]] void raise() { throw nb::python_error(std::move(*error_)); }
+
 private:
-  void fail(nb::python_error&& error)
+  void check_signals()
+  {
+    if (PyErr_CheckSignals() != 0) give_up(nb::python_error());
+  }
+
+  [[noreturn]] void give_up(nb::python_error&& error)
   {
     error_.emplace(std::move(error));
-    is_stopped_ = true;
+    throw Cancelled();
   }
 
   void tell(const char* event, const nb::dict& what)
@@ -82,7 +91,7 @@ private:
     try {
       is_stopped_ = callback_(**what).is(nb::handle(Py_False));
     } catch (nb::python_error& error) {
-      fail(std::move(error));
+      give_up(std::move(error));
     }
   }
 

@@ -11,11 +11,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace sma_python {
+
+/// Thrown by `Events` to give a run up; nothing is returned then.
+struct Cancelled
+{};
 
 /// Points and triangles as the user has them, and what is done to them where they are no valid surface.
 struct Surface_arrays
@@ -26,6 +31,7 @@ struct Surface_arrays
   bool repair = false;             ///< mend what is no valid surface
   Array_view<std::uint8_t> constrained_vertices; ///< n, or empty
   Index_view constrained_edges;    ///< k x 2
+  std::function<void()> poll = [] {}; ///< called now and then while they are read; may throw
 };
 
 /// How to run: `execution` is a name, or empty for the best policy; 0 threads are as many as possible.
@@ -71,7 +77,7 @@ struct Options
   double max_distance = 0;
 };
 
-/// Follows a run, on the thread that began it.
+/// Follows a run, on the thread that began it. What it throws passes through.
 class Events
 {
 public:

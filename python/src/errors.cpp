@@ -35,7 +35,7 @@ void translate(const std::exception_ptr& thrown, void*)
   try {
     std::rethrow_exception(thrown);
   }
-#define SMA_PYTHON_INVALID_INPUT(NAME)                                 \
+#define SMA_PYTHON_INVALID_INPUT(NAME)                                                                                 \
   catch (const SMA::NAME& e) { raise_with_index(#NAME, e); }
   SMA_PYTHON_INVALID_INPUT(Non_triangular_face_error)
   SMA_PYTHON_INVALID_INPUT(Non_manifold_vertex_error)
@@ -46,27 +46,29 @@ void translate(const std::exception_ptr& thrown, void*)
   SMA_PYTHON_INVALID_INPUT(Invalid_normal_error)
   SMA_PYTHON_INVALID_INPUT(Invalid_input_error)
 #undef SMA_PYTHON_INVALID_INPUT
-  catch (const SMA::Tolerance_error& e) {
+  catch (const SMA::Tolerance_error& e)
+  {
     nb::object error = exception("Tolerance_error", e);
     error.attr("distance") = e.distance();
     error.attr("tolerance") = e.tolerance();
     raise(error);
-  } catch (const SMA::Mesh_too_large_error& e) {
+  }
+  catch (const SMA::Mesh_too_large_error& e)
+  {
     nb::object error = exception("Mesh_too_large_error", e);
     error.attr("vertices") = e.estimate().vertices;
     error.attr("largest") = e.estimate().largest;
     raise(error);
-  } catch (const SMA::Invalid_extent_error& e) {
+  }
+  catch (const SMA::Invalid_extent_error& e)
+  {
     nb::object error = exception("Invalid_extent_error", e);
     error.attr("extent") = e.extent();
     raise(error);
-  } catch (const SMA::Empty_mesh_error& e) {
-    raise(exception("Empty_mesh_error", e));
-  } catch (const SMA::Invalid_parameter_error& e) {
-    raise(exception("Invalid_parameter_error", e));
-  } catch (const SMA::Adaptation_error& e) {
-    raise(exception("Adaptation_error", e));
   }
+  catch (const SMA::Empty_mesh_error& e) { raise(exception("Empty_mesh_error", e)); }
+  catch (const SMA::Invalid_parameter_error& e) { raise(exception("Invalid_parameter_error", e)); }
+  catch (const SMA::Adaptation_error& e) { raise(exception("Adaptation_error", e)); }
 }
 
 } // namespace

@@ -8,8 +8,6 @@
 #include "errors.h"
 #include "tools.h"
 
-#include <CGAL/Surface_mesh_adaptation/exceptions.h>
-
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
@@ -135,18 +133,17 @@ nb::dict dictionary(Outcome&& o)
 
 nb::dict run(const std::string& kernel, const nb::dict& request, nb::object callback)
 {
-  const Surface_arrays surface = surface_of(request);
+  Surface_arrays surface = surface_of(request);
   const Options options = options_of(request);
   Python_events events(std::move(callback));
+  surface.poll = [&] { events.poll(); };
   Outcome outcome;
   try {
     const nb::gil_scoped_release no_gil;
     outcome = (options.flat ? run_on_triangles : run_on_patches)(kernel, surface, options, events);
-  } catch (const CGAL::Surface_mesh_adaptation::Adaptation_error&) {
-    events.raise(); // a run that is stopped may miss its tolerance
-    throw;
+  } catch (const Cancelled&) {
+    events.raise();
   }
-  events.raise();
   return dictionary(std::move(outcome));
 }
 

@@ -53,9 +53,11 @@ class Run
 {
 public:
   Run(const Surface_arrays& arrays, const Options& options, Events& events)
-    : options_(options), teller_{events}, surface_(arrays)
-    , sources_(surface_.mesh.add_property_map<Vertex, Source>("v:source").first)
-    , metric_(surface_.mesh.add_property_map<Vertex, SMA::Metric_tensor_3>("v:metric").first)
+    : options_(options),
+      teller_{events},
+      surface_(arrays),
+      sources_(surface_.mesh.add_property_map<Vertex, Source>("v:source").first),
+      metric_(surface_.mesh.add_property_map<Vertex, SMA::Metric_tensor_3>("v:metric").first)
   {
     for (const Vertex v : surface_.mesh.vertices()) sources_[v] = Source(surface_.point_of_vertex[v]);
   }
@@ -63,23 +65,21 @@ public:
   Outcome operator()(const std::string& kernel)
   {
     constexpr double none = std::numeric_limits<double>::infinity();
-    const Chosen_field field =
-      chosen_field(options_, surface_, options_.tolerance > 0 ? options_.tolerance : none);
+    const Chosen_field field = chosen_field(options_, surface_, options_.tolerance > 0 ? options_.tolerance : none);
     const double tolerance = options_.tolerance > 0 ? options_.tolerance * diagonal(surface_.mesh) : none;
-    const auto parameters =
-      SMA::parameters::detect_features(options_.detect_features)
-        .feature_angle(given(options_.feature_angle, SMA::Feature_parameters().ridge_angle))
-        .smooth_borders(options_.smooth_borders)
-        .edge_is_constrained_map(surface_.edge_is_constrained)
-        .vertex_is_constrained_map(surface_.vertex_is_constrained)
-        .vertex_attribute_maps(std::make_tuple(sources_))
-        .maximum_number_of_vertices(options_.max_vertices)
-        .output_metric_map(metric_)
-        .tolerance(tolerance)
-        .surface_reconstruction(Reconstruction())
-        .fit_to_surface(options_.fit)
-        .shape_weight_of_fit(given(options_.shape_weight, SMA::default_shape_weight))
-        .visitor(std::ref(teller_));
+    const auto parameters = SMA::parameters::detect_features(options_.detect_features)
+                              .feature_angle(given(options_.feature_angle, SMA::Feature_parameters().ridge_angle))
+                              .smooth_borders(options_.smooth_borders)
+                              .edge_is_constrained_map(surface_.edge_is_constrained)
+                              .vertex_is_constrained_map(surface_.vertex_is_constrained)
+                              .vertex_attribute_maps(std::make_tuple(sources_))
+                              .maximum_number_of_vertices(options_.max_vertices)
+                              .output_metric_map(metric_)
+                              .tolerance(tolerance)
+                              .surface_reconstruction(Reconstruction())
+                              .fit_to_surface(options_.fit)
+                              .shape_weight_of_fit(given(options_.shape_weight, SMA::default_shape_weight))
+                              .visitor(std::ref(teller_));
     const auto start = std::chrono::steady_clock::now();
     with_jets(parameters, [&](const auto& np) { with_input_numbers([&] { run(kernel, field, np); }); });
     outcome_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -151,9 +151,10 @@ private:
   void run(const std::string& kernel, const Chosen_field& field, const NamedParameters& np)
   {
     if (kernel == "adapt") adapt(field, np.number_of_iterations(iterations(SMA::default_number_of_rounds)));
-    else with_execution(options_.execution, [&](const auto& execution) {
-      outcome_.operations = run_alone(SMA::internal::Any_execution(execution), kernel, field, np);
-    });
+    else
+      with_execution(options_.execution, [&](const auto& execution) {
+        outcome_.operations = run_alone(SMA::internal::Any_execution(execution), kernel, field, np);
+      });
   }
 
   unsigned iterations(unsigned by_default) const { return options_.iterations.value_or(by_default); }
@@ -201,7 +202,8 @@ private:
     if (normals_) write_jets();
     for (const Edge e : surface_.mesh.edges())
       if (surface_.edge_is_constrained[e])
-        for (int i = 0; i < 2; ++i) outcome_.feature_edges.push_back(std::int64_t(surface_.mesh.vertex(e, unsigned(i))));
+        for (int i = 0; i < 2; ++i)
+          outcome_.feature_edges.push_back(std::int64_t(surface_.mesh.vertex(e, unsigned(i))));
   }
 
   void write_faces()

@@ -4,7 +4,8 @@
 
 namespace sma_python {
 
-Outcome run_on_triangles(const std::string& kernel, const Surface_arrays& surface, const Options& options, Events& events)
+Outcome run_on_triangles(const std::string& kernel, const Surface_arrays& surface, const Options& options,
+                         Events& events)
 {
   return Run<SMA::Flat_reconstruction>(surface, options, events)(kernel);
 }

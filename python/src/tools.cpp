@@ -117,7 +117,8 @@ std::vector<double> at_points(const Smooth_surface& surface, const Options& opti
 template <class Use>
 auto with_metric(const Smooth_surface& surface, const Options& options, const Use& use)
 {
-  return options.tensors.empty() ? use(sizes_at_vertices(surface, options)) : use(tensors_at_vertices(surface, options));
+  return options.tensors.empty() ? use(sizes_at_vertices(surface, options))
+                                 : use(tensors_at_vertices(surface, options));
 }
 
 void grade(const Smooth_surface& s, double ratio, std::vector<double>& sizes)
@@ -161,10 +162,9 @@ Jets estimate_jets(const Surface_arrays& input, const Options& options)
   using Vector = CGAL::Kernel_traits<Point>::Kernel::Vector_3;
   const auto normals = mesh.add_property_map<Vertex, Vector>("v:normal").first;
   const auto shape_operators = mesh.add_property_map<Vertex, Metric_tensor_3>("v:shape_operator").first;
-  SMA::estimate_vertex_jets(execution_of(options), mesh,
-                            feature_parameters(surface, options)
-                              .vertex_normal_map(normals)
-                              .vertex_shape_operator_map(shape_operators));
+  SMA::estimate_vertex_jets(
+    execution_of(options), mesh,
+    feature_parameters(surface, options).vertex_normal_map(normals).vertex_shape_operator_map(shape_operators));
   Jets jets;
   jets.normals.resize(3 * input.points.rows);
   jets.shape_operators.resize(9 * input.points.rows);
@@ -222,10 +222,9 @@ std::vector<double> scaled(const Surface_arrays& input, const Options& options)
   return with_metric(surface, options, [&](auto values) {
     using Value = typename decltype(values)::value_type;
     const double length = diagonal(reference.points);
-    SMA::Scalable_metric metric{
-      std::vector<Metric_tensor_3>(values.size()),
-      SMA::internal::bounds_of_scaled_metric(options.hmin, options.hmax, length),
-      options.gradation > 0 ? options.gradation : 1};
+    SMA::Scalable_metric metric{std::vector<Metric_tensor_3>(values.size()),
+                                SMA::internal::bounds_of_scaled_metric(options.hmin, options.hmax, length),
+                                options.gradation > 0 ? options.gradation : 1};
     for (std::size_t v = 0; v < values.size(); ++v) metric.tensors[v] = as_tensor(values[v]);
     return at_points(surface, options,
                      SMA::normalize_to_vertex_count<Value>(surface.execution, reference.mesh, reference.points,
@@ -256,8 +255,7 @@ std::vector<double> intersected(const Array_view<double>& a, const Array_view<do
   check_tensors(a);
   check_tensors(b);
   std::vector<double> result(9 * a.rows);
-  for (std::size_t i = 0; i < a.rows; ++i)
-    put(result, i, SMA::intersection(tensor_of(a.row(i)), tensor_of(b.row(i))));
+  for (std::size_t i = 0; i < a.rows; ++i) put(result, i, SMA::intersection(tensor_of(a.row(i)), tensor_of(b.row(i))));
   return result;
 }
 

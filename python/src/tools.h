@@ -63,7 +63,8 @@ void check_tensors(const Array_view<double>& tensors);
 Places exponential_map(const Surface_arrays&, const Options&, const Index_view& vertices,
                        const Array_view<double>& vectors);
 /// The smooth surface over `faces` (k) at the barycentric coordinates `weights` (k x 3).
-Places surface_points(const Surface_arrays&, const Options&, const Index_view& faces, const Array_view<double>& weights);
+Places surface_points(const Surface_arrays&, const Options&, const Index_view& faces,
+                      const Array_view<double>& weights);
 
 } // namespace sma_python
 

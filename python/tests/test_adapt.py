@@ -70,7 +70,9 @@ def test_every_policy_gives_the_same_bits(reconstruction, execution):
     points, triangles = sphere()
     options = {"curvature": 0.002, "anisotropic": True, "reconstruction": reconstruction}
     expected = sma.adapt(points, triangles, **options, threads=1)
-    result = sma.adapt(points, triangles, **options, execution=execution, threads=None if execution == "sequential" else 2)
+    result = sma.adapt(
+        points, triangles, **options, execution=execution, threads=None if execution == "sequential" else 2
+    )
     assert np.array_equal(result.points, expected.points)
     assert np.array_equal(result.triangles, expected.triangles)
     assert result.report.execution == execution

@@ -35,7 +35,12 @@ def test_formats(square_file, tmp_path, suffix):
 
 @pytest.mark.parametrize(
     "options",
-    [["--metric", "h"], ["--metric", "m"], ["--field", "u", "--vertices", "200", "--anisotropic"], ["--vertices", "200"]],
+    [
+        ["--metric", "h"],
+        ["--metric", "m"],
+        ["--field", "u", "--vertices", "200", "--anisotropic"],
+        ["--vertices", "200"],
+    ],
 )
 def test_data_of_the_input(square_file, tmp_path, options):
     out = tmp_path / "out.vtu"

@@ -36,7 +36,9 @@ def test_numbers_have_all_digits(result):
 
 
 def test_what_json_does_not_know():
-    report = sma.Report.from_json('{"seconds": inf, "warnings": ["a \\"x\\": inf"], "final": {"min_angle": -nan}, "new": 1}')
+    report = sma.Report.from_json(
+        '{"seconds": inf, "warnings": ["a \\"x\\": inf"], "final": {"min_angle": -nan}, "new": 1}'
+    )
     assert report.seconds == float("inf") and np.isnan(report.final.min_angle)
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Adapts triangulated surfaces to metric fields, in parallel.
 
-`adapt` does it all; `refine`, `simplify`, `swap`, `regularize` and `relocate` are its kernels alone. They take arrays of
-points and triangles, `pyvista.PolyData`, `trimesh.Trimesh` or `meshio.Mesh`.
+`adapt` does it all; `refine`, `simplify`, `swap`, `regularize` and `relocate` are its kernels alone. They take arrays
+of points and triangles, `pyvista.PolyData`, `trimesh.Trimesh` or `meshio.Mesh`.
 """
 
 from .errors import (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""``python -m surface_mesh_adaptation in.vtu out.msh --curvature 0.001``: adapt_mesh on every format that meshio knows."""
+"""``python -m surface_mesh_adaptation in.vtu out.msh --curvature 0.001``: adapt_mesh on all formats of meshio."""
 
 from __future__ import annotations
 
@@ -31,12 +31,16 @@ def _parser() -> argparse.ArgumentParser:
     add("input", metavar="INPUT", type=Path)
     add("output", metavar="OUTPUT", type=Path)
     add("--size", metavar="H", type=float, help="uniform target edge length")
-    add("--curvature", metavar="EPS", type=float, help="sizes from the curvature, which aim at a distance to the surface "
-        "of EPS times the diagonal of the bounding box")  # fmt: skip
+    add("--curvature", metavar="EPS", type=float, help="sizes from the curvature, which aim at a distance to the "
+        "surface of EPS times the diagonal of the bounding box")  # fmt: skip
     add("--metric", metavar="NAME", help="the point data of the input with sizes (1 value) or tensors (6 or 9 values)")
     add("--field", metavar="NAME", help="the point data of the input of which the interpolation error is to be small")
     add("--norm", metavar="P", type=float, help="the L^P norm in which --field measures the error (default: 2)")
-    add("--anisotropic", action="store_true", help="stretch the faces where the surface bends, or the field varies, less")
+    add(
+        "--anisotropic",
+        action="store_true",
+        help="stretch the faces where the surface bends, or the field varies, less",
+    )
     add("--vertices", metavar="N", type=int, help="number of vertices to aim at")
     add("--max-vertices", metavar="N", type=int, help="refuse what needs more vertices than these")
     add("--hmin", metavar="H", type=float, help="lower bound on the sizes")
@@ -45,8 +49,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--feature-angle", metavar="DEG", type=float, help="edges whose faces meet at a larger angle are kept sharp")
     add("--no-features", dest="detect_features", action="store_false", help="do not look for sharp edges")
     add("--smooth-borders", action="store_true", help="keep the outlines of the planes of a CAD tessellation")
-    add("--tolerance", metavar="EPS", type=float, help="certify that the distance between input and output is below EPS "
-        "times the diagonal of the bounding box")  # fmt: skip
+    add("--tolerance", metavar="EPS", type=float, help="certify that the distance between input and output is below "
+        "EPS times the diagonal of the bounding box")  # fmt: skip
     add("--flat", action="store_true", help="the triangles of the input are the surface")
     add("--fit", action="store_true", help="let the faces run through the surface")
     add("--shape-weight", metavar="W", type=float, help="what the shape of the faces counts with --fit, up to 1")

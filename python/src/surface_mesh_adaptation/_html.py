@@ -36,7 +36,8 @@ def _histogram(title: str, labels: Sequence[str], counts: Sequence[int]) -> str:
         bars.append(
             f'<rect x="{i * step + 1:.1f}" y="{height - h:.1f}" width="{step - 2:.1f}" height="{h:.1f}" fill="#4472a8">'
             f"<title>{escape(label)}: {count} ({100 * count / total:.2f} %)</title></rect>"
-            f'<text x="{(i + 0.5) * step:.1f}" y="{height + 14}" font-size="10" text-anchor="middle">{escape(label)}</text>'
+            f'<text x="{(i + 0.5) * step:.1f}" y="{height + 14}" font-size="10" text-anchor="middle">'
+            f"{escape(label)}</text>"
         )
     svg = f'<svg width="{width}" height="{height + 20}" role="img" aria-label="{escape(title)}">{"".join(bars)}</svg>'
     return f"<figure>{svg}<figcaption>{escape(title)}</figcaption></figure>"
@@ -58,7 +59,9 @@ def _statistics(report: Report) -> str:
     rows = [_statistics_row("input", report.initial)]
     rows += [_statistics_row(f"round {i + 1}", s) for i, s in enumerate(report.after_round)]
     rows.append(_statistics_row("result", report.final))
-    return _table(["", "vertices", "faces", "edges in range", "mean length", "mean quality", "worst", "least angle"], rows)
+    return _table(
+        ["", "vertices", "faces", "edges in range", "mean length", "mean quality", "worst", "least angle"], rows
+    )
 
 
 def _histograms(report: Report, result: Result | None) -> str:

@@ -198,4 +198,6 @@ def _check_consistent(given: Request, request: Request) -> None:
         "feature_angle contradicts detect_features=False",
     )
     refuse_if(has["shape_weight"] and not given.get("fit"), "shape_weight needs fit")
-    refuse_if(given.get("execution") == "sequential" and given.get("threads", 1) > 1, "threads needs a parallel execution")
+    refuse_if(
+        given.get("execution") == "sequential" and given.get("threads", 1) > 1, "threads needs a parallel execution"
+    )

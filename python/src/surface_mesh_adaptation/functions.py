@@ -125,8 +125,8 @@ def adapt(
     triangles are well shaped in it. The input is not changed, and is read without a copy where it is contiguous and of
     type float64, int32 or int64. The result is the same to the last bit for every `execution` and number of `threads`.
 
-    One of `size`, `curvature`, `metric`, `field`, `vertices` and `tolerance` says how fine the mesh is to be. A `metric`
-    (or sizes) or a `field` can be combined with `curvature`: then both are kept.
+    One of `size`, `curvature`, `metric`, `field`, `vertices` and `tolerance` says how fine the mesh is to be. A
+    `metric` (or sizes) or a `field` can be combined with `curvature`: then both are kept.
 
     Parameters
     ----------
@@ -137,8 +137,8 @@ def adapt(
     size : float, array, function or str, optional
         The length of the edges; anything but a number is taken as `metric` is.
     curvature : float, optional
-        Sizes from the curvature, which aim at a distance to the surface of this fraction of the diagonal of the bounding
-        box.
+        Sizes from the curvature, which aim at a distance to the surface of this fraction of the diagonal of the
+        bounding box.
     metric : array, function or str, optional
         Sizes (n,) or symmetric tensors (n, 3, 3) or (n, 6) as xx xy yy xz yz zz, at the points; or a function that
         returns these for all points (n, 3), which is called once, before the run, with those of the input; or the name
@@ -211,7 +211,7 @@ def adapt(
     Raises
     ------
     Invalid_input_error
-        One of those derived from it, if the mesh, the metric or an array is not as above; with the index of the element.
+        One of those derived from it, with the index of the element: the mesh, the metric or an array is not as above.
     Invalid_parameter_error, Empty_mesh_error, Invalid_extent_error, Mesh_too_large_error, Tolerance_error
         As their names say. All derive from `Adaptation_error`.
     TypeError, ValueError

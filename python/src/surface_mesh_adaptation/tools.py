@@ -54,8 +54,8 @@ def estimate_jets(points: Any, triangles: Any = None, **options: Any) -> Jets:
     """Estimates normals and shape operators as an adaptation would.
 
     The shape operator is the derivative of the normal along the surface: on a sphere of radius r with outer normals
-    ``(I - n n^T) / r``. Where several smooth parts meet, at features, the values are those of one of them; at points that
-    no triangle uses they are zero.
+    ``(I - n n^T) / r``. Where several smooth parts meet, at features, the values are those of one of them; at points
+    that no triangle uses they are zero.
 
     Parameters
     ----------
