@@ -53,11 +53,12 @@ class Run
 {
 public:
   Run(const Surface_arrays& arrays, const Options& options, Events& events)
-    : options_(options),
+    : input_(arrays),
+      options_(options),
       teller_{events},
       surface_(arrays),
       sources_(surface_.mesh.add_property_map<Vertex, Source>("v:source").first),
-      metric_(surface_.mesh.add_property_map<Vertex, SMA::Metric_tensor_3>("v:metric").first)
+      metric_(surface_.mesh.add_property_map<Vertex, SMA::Metric_tensor_3>("v:metric", unknown_metric()).first)
   {
     for (const Vertex v : surface_.mesh.vertices()) sources_[v] = Source(surface_.point_of_vertex[v]);
   }
@@ -88,6 +89,7 @@ public:
   }
 
 private:
+  static SMA::Metric_tensor_3 unknown_metric() { return {0, 0, 0, 0, 0, 0}; }
   static double given(double value, double by_default) { return value > 0 ? value : by_default; }
 
   // normals and shape operators
@@ -208,6 +210,7 @@ private:
 
   void write_faces()
   {
+    input_.poll();
     const Mesh& mesh = surface_.mesh;
     outcome_.triangles.reserve(3 * std::size_t(mesh.number_of_faces()));
     for (const auto f : mesh.faces())
@@ -216,6 +219,7 @@ private:
 
   void write_vertices()
   {
+    input_.poll();
     const std::size_t n = surface_.mesh.number_of_vertices();
     outcome_.points.reserve(3 * n);
     outcome_.metric.reserve(9 * n);
@@ -241,6 +245,7 @@ private:
     }
   }
 
+  const Surface_arrays& input_;
   const Options& options_;
   Teller teller_;
   Array_surface surface_;

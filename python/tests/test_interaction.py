@@ -33,6 +33,7 @@ def test_false_stops_with_a_valid_mesh():
     at_once = sma.adapt(points, triangles, size=0.05, progress=lambda p: False)
     check_manifold(at_once, 2)
     assert at_once.report.stopped
+    assert at_once.metric is None or (np.linalg.det(at_once.metric) > 0).all()
 
 
 def test_anything_but_false_goes_on():

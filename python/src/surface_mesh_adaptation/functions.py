@@ -46,7 +46,7 @@ def _result(raw: dict[str, Any], surface: Surface) -> Result:
         points=raw["points"],
         triangles=raw["triangles"],
         attributes={},
-        metric=metric if len(metric) > 0 and metric[0].any() else None,
+        metric=metric if metric.any() else None,
         feature_edges=raw["feature_edges"],
         corners=corners_of(raw["points"], raw["feature_edges"], raw["constrained_vertices"]),
         constrained_vertices=raw["constrained_vertices"],
