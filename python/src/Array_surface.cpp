@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace sma_python {
@@ -56,8 +57,13 @@ Array_surface::Array_surface(const Surface_arrays& input)
 {
   build(input);
   edge_is_constrained = mesh.add_property_map<Edge, bool>("e:constrained", false).first;
+  edge_is_protected = mesh.add_property_map<Edge, bool>("e:protected", false).first;
   vertex_is_constrained = mesh.add_property_map<Vertex, bool>("v:constrained", false).first;
+  label = mesh.add_property_map<Face, int>("f:label", 0).first;
+  size_bounds = mesh.add_property_map<Face, std::pair<double, double>>("f:size_bounds", {0, 0}).first;
   constrain(input);
+  read_faces(input);
+  read_corners(input);
 }
 
 void Array_surface::build(const Surface_arrays& input)
@@ -69,6 +75,7 @@ void Array_surface::build(const Surface_arrays& input)
       points_of(input.points), triangles_of(input), mesh, {input.weld, input.repair});
     if (!input.repair && !report.is_valid()) throw SMA::Adaptation_error(joined(report.offences()));
     point_of_vertex = report.point_of_vertex;
+    triangle_of_face = report.polygon_of_face;
     repairs = report.repairs();
     warnings = report.warnings();
     return;
@@ -77,6 +84,13 @@ void Array_surface::build(const Surface_arrays& input)
   point_of_vertex.resize(mesh.number_of_vertices());
   for (std::size_t i = 0; i < vertex_of_point.size(); ++i)
     if (vertex_of_point[i] != Mesh::null_vertex()) point_of_vertex[vertex_of_point[i]] = i;
+  number_faces();
+}
+
+void Array_surface::number_faces()
+{
+  triangle_of_face.resize(mesh.number_of_faces());
+  std::iota(triangle_of_face.begin(), triangle_of_face.end(), std::size_t(0));
 }
 
 /// Returns whether that can be done.
@@ -92,6 +106,7 @@ bool Array_surface::build_directly(const Surface_arrays& input)
   }
   point_of_vertex.resize(input.points.rows);
   std::iota(point_of_vertex.begin(), point_of_vertex.end(), std::size_t(0));
+  number_faces();
   return true;
 }
 
@@ -100,19 +115,54 @@ void Array_surface::constrain(const Surface_arrays& input)
   if (!input.constrained_vertices.empty())
     for (const Vertex v : mesh.vertices())
       vertex_is_constrained[v] = input.constrained_vertices.data[point_of_vertex[v]] != 0;
-  if (input.constrained_edges.rows() == 0) return;
+  mark_edges(input, input.constrained_edges, "a constrained edge is no edge of a triangle", edge_is_constrained);
+  mark_edges(input, input.protected_edges, "a protected edge is no edge of a triangle", edge_is_protected);
+}
+
+/// \throws Invalid_input_error with `what` if a pair is no edge
+void Array_surface::mark_edges(const Surface_arrays& input, const Index_view& edges, const char* what,
+                               Mesh::Property_map<Edge, bool> marks)
+{
+  if (edges.rows() == 0) return;
   std::vector<Vertex> vertex_of_point(input.points.rows, Mesh::null_vertex());
   for (const Vertex v : mesh.vertices()) vertex_of_point[point_of_vertex[v]] = v;
   const auto vertex = [&](std::int64_t i) {
     return i >= 0 && std::size_t(i) < vertex_of_point.size() ? vertex_of_point[std::size_t(i)] : Mesh::null_vertex();
   };
-  for (std::size_t i = 0; i < input.constrained_edges.rows(); ++i) {
-    const Vertex v = vertex(input.constrained_edges.at(i, 0)), w = vertex(input.constrained_edges.at(i, 1));
+  for (std::size_t i = 0; i < edges.rows(); ++i) {
+    const Vertex v = vertex(edges.at(i, 0)), w = vertex(edges.at(i, 1));
     const bool exist = v != Mesh::null_vertex() && w != Mesh::null_vertex();
     const auto h = exist ? mesh.halfedge(v, w) : Mesh::null_halfedge();
-    if (h == Mesh::null_halfedge())
-      throw SMA::Invalid_input_error("a constrained edge is no edge of a triangle", "edge", i);
-    edge_is_constrained[mesh.edge(h)] = true;
+    if (h == Mesh::null_halfedge()) throw SMA::Invalid_input_error(what, "edge", i);
+    marks[mesh.edge(h)] = true;
+  }
+}
+
+/// What is given for triangles. Faces that a repair has added have none of it.
+void Array_surface::read_faces(const Surface_arrays& input)
+{
+  for (const Face f : mesh.faces()) {
+    const std::size_t t = triangle_of_face[f];
+    if (t == SMA::Repair_report::none) continue;
+    if (!input.labels.empty()) label[f] = input.labels.data[t];
+    if (!input.size_bounds.empty()) size_bounds[f] = {input.size_bounds.row(t)[0], input.size_bounds.row(t)[1]};
+    if (input.protected_faces.empty() || input.protected_faces.data[t] == 0) continue;
+    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) edge_is_protected[mesh.edge(h)] = true;
+  }
+}
+
+void Array_surface::read_corners(const Surface_arrays& input)
+{
+  const std::size_t n = input.corner_values.columns / 3;
+  for (std::size_t k = 0; k < n && !input.corner_values.empty(); ++k)
+    at_corners.push_back(mesh.add_property_map<Halfedge, double>("h:" + std::to_string(k), 0).first);
+  for (const Face f : mesh.faces()) {
+    const std::size_t t = triangle_of_face[f];
+    if (at_corners.empty() || t == SMA::Repair_report::none) continue;
+    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
+      for (std::size_t c = 0; c < 3; ++c)
+        if (std::size_t(input.triangles.at(t, c)) == point_of_vertex[mesh.target(h)])
+          for (std::size_t k = 0; k < n; ++k) at_corners[k][h] = input.corner_values.row(t)[n * c + k];
   }
 }
 

@@ -46,38 +46,12 @@ using Tensor_map = Array_map<SMA::Metric_tensor_3>;
 using Solution_field = SMA::Solution_metric_field<Size_map>;
 using Curvature_field = SMA::Curvature_metric_field;
 
-struct Chosen_field
-{
+using Chosen_field =
   std::variant<SMA::Uniform_metric_field, Curvature_field, Size_map, Tensor_map, Solution_field,
                SMA::Intersection_metric_field<Size_map>, SMA::Intersection_metric_field<Tensor_map>,
                SMA::Intersection_metric_field<Size_map, Curvature_field>,
                SMA::Intersection_metric_field<Tensor_map, Curvature_field>,
-               SMA::Intersection_metric_field<Solution_field, Curvature_field>>
-    field;
-};
-
-// What the library asks of a field.
-
-template <class Execution, class Import, class Reference, class Use>
-void with_background(const Execution& execution, const Chosen_field& chosen, const Import& imported,
-                     const Reference& reference, const Use& use)
-{
-  using SMA::internal::with_background;
-  std::visit([&](const auto& field) { with_background(execution, field, imported, reference, use); }, chosen.field);
-}
-
-inline std::size_t number_of_vertices(const Chosen_field& chosen, int)
-{
-  return std::visit([](const auto& field) { return SMA::internal::number_of_vertices(field, 0); }, chosen.field);
-}
-
-template <class Reference>
-void warn_of_bulges(const SMA::internal::Any_execution& execution, const Chosen_field& chosen,
-                    const Reference& reference, SMA::Adaptation_report& report)
-{
-  std::visit([&](const auto& field) { SMA::internal::warn_of_bulges(execution, field, reference, report); },
-             chosen.field);
-}
+               SMA::Intersection_metric_field<Solution_field, Curvature_field>>;
 
 // From options to fields.
 
@@ -113,7 +87,7 @@ Chosen_field intersection(const Options& options, double gradation, const Fields
   auto field = configured(options, SMA::Intersection_metric_field(fields...));
   if (options.gradation == 0) field.gradation = gradation;
   field.vertices = options.vertices;
-  return {field};
+  return field;
 }
 
 /// Without more to say, a metric that is given is taken as it is.
@@ -122,7 +96,7 @@ Chosen_field field_of_map(const Options& options, const Map& map)
 {
   if (options.curvature > 0) return intersection(options, SMA::default_gradation, map, curvature_field(options, 0));
   if (options.vertices > 0 || options.gradation > 0) return intersection(options, 1, map);
-  return {map};
+  return map;
 }
 
 inline Chosen_field field_of_solution(const Options& options, const Size_map& values)
@@ -131,7 +105,7 @@ inline Chosen_field field_of_solution(const Options& options, const Size_map& va
   stretch(options, field);
   if (options.norm > 0) field.norm = options.norm;
   if (options.curvature > 0) return intersection(options, SMA::default_gradation, field, curvature_field(options, 0));
-  return {field};
+  return field;
 }
 
 /// \param relative_tolerance the tolerance as a fraction of the diagonal, infinite if none was given
@@ -140,11 +114,11 @@ inline Chosen_field chosen_field(const Options& options, const Array_surface& su
   constexpr double any_tolerance = 0.001; // with a number of vertices the tolerance follows from it
   constexpr double largest_gap = 2.5;     // of meshes with the sizes for a tolerance, in units of that
   const std::vector<std::size_t>* const points = &surface.point_of_vertex;
-  if (options.size > 0) return {SMA::Uniform_metric_field(options.size)};
+  if (options.size > 0) return SMA::Uniform_metric_field(options.size);
   if (!options.sizes.empty()) return field_of_map(options, Size_map{options.sizes, points});
   if (!options.tensors.empty()) return field_of_map(options, Tensor_map{options.tensors, points});
   if (!options.field.empty()) return field_of_solution(options, Size_map{options.field, points});
-  return {curvature_field(options, options.vertices > 0 ? any_tolerance : relative_tolerance / largest_gap)};
+  return curvature_field(options, options.vertices > 0 ? any_tolerance : relative_tolerance / largest_gap);
 }
 
 } // namespace sma_python

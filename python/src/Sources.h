@@ -6,7 +6,7 @@
 #ifndef SMA_PYTHON_SOURCES_H
 #define SMA_PYTHON_SOURCES_H
 
-#include <CGAL/Surface_mesh_adaptation/driver/attribute_transfer.h>
+#include <CGAL/Surface_mesh_adaptation/driver/Attribute_interpolator.h>
 
 #include <array>
 #include <cstddef>

@@ -31,6 +31,12 @@ struct Surface_arrays
   bool repair = false;             ///< mend what is no valid surface
   Array_view<std::uint8_t> constrained_vertices; ///< n, or empty
   Index_view constrained_edges;    ///< k x 2
+  Index_view protected_edges;      ///< k x 2
+  Array_view<std::uint8_t> protected_faces; ///< m, or empty: whether the edges of each triangle are protected
+  Array_view<std::uint8_t> selected_faces;  ///< m, or empty: the triangles that are adapted
+  Array_view<std::int32_t> labels; ///< m, or empty
+  Array_view<double> size_bounds;  ///< m x 2, or empty; 0: no bound
+  Array_view<double> corner_values; ///< m x 3k, or empty: k numbers at each corner
   std::function<void()> poll = [] {}; ///< called now and then while they are read; may throw
 };
 
@@ -67,6 +73,8 @@ struct Options
   bool flat = false;
   bool fit = false;
   double shape_weight = 0;
+  double protected_gradation = -1; ///< negative if not given
+  bool wants_face_origin = false;
   double tolerance = 0;            ///< as a fraction of the diagonal of the bounding box
   Array_view<double> normals;         ///< n x 3, or empty
   Array_view<double> shape_operators; ///< n x 9, or empty
@@ -97,6 +105,11 @@ struct Outcome
   std::vector<std::int32_t> source_points; ///< n x 3: points of the input that each vertex lies between
   std::vector<double> source_weights;     ///< n x 3
   std::vector<std::int64_t> feature_edges; ///< k x 2
+  std::vector<std::int64_t> protected_edges; ///< k x 2
+  std::vector<std::int64_t> vertex_origin; ///< n: the point of the input that a vertex was, or -1
+  std::vector<std::int64_t> face_origin;   ///< m, if wanted: the triangle of the input below the centre
+  std::vector<std::int32_t> labels;        ///< m, if there are any
+  std::vector<double> corner_values;       ///< m x 3k, if there are any
   std::vector<std::int64_t> constrained_vertices;
   std::vector<double> normals;            ///< n x 3, if normals or shape operators were given
   std::vector<double> shape_operators;    ///< n x 9, the same

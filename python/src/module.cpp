@@ -79,6 +79,9 @@ Surface_arrays surface_of(const nb::dict& from)
   Reader read(from);
   read("points", s.points)("triangles", s.triangles)("weld", s.weld)("repair", s.repair);
   read("constrained_vertices", s.constrained_vertices)("constrained_edges", s.constrained_edges);
+  read("protected_edges", s.protected_edges)("protected_faces", s.protected_faces);
+  read("selected_faces", s.selected_faces)("labels", s.labels)("size_bounds", s.size_bounds);
+  read("corner_values", s.corner_values);
   return s;
 }
 
@@ -92,6 +95,7 @@ Options options_of(const nb::dict& from)
   read("norm", o.norm)("gradation", o.gradation)("hmin", o.hmin)("hmax", o.hmax);
   read("detect_features", o.detect_features)("feature_angle", o.feature_angle)("smooth_borders", o.smooth_borders);
   read("flat", o.flat)("fit", o.fit)("shape_weight", o.shape_weight)("tolerance", o.tolerance);
+  read("protected_gradation", o.protected_gradation)("wants_face_origin", o.wants_face_origin);
   read("normals", o.normals)("shape_operators", o.shape_operators);
   read("max_vertices", o.max_vertices)("max_normal_deviation", o.max_normal_deviation)("max_distance", o.max_distance);
   if (from.contains("iterations")) o.iterations = nb::cast<unsigned>(from["iterations"]);
@@ -120,6 +124,11 @@ nb::dict dictionary(Outcome&& o)
   result["source_points"] = array(std::move(o.source_points), {3});
   result["source_weights"] = array(std::move(o.source_weights), {3});
   result["feature_edges"] = array(std::move(o.feature_edges), {2});
+  result["protected_edges"] = array(std::move(o.protected_edges), {2});
+  result["vertex_origin"] = array(std::move(o.vertex_origin));
+  result["face_origin"] = array(std::move(o.face_origin));
+  result["labels"] = array(std::move(o.labels));
+  result["corner_values"] = array(std::move(o.corner_values));
   result["constrained_vertices"] = array(std::move(o.constrained_vertices));
   if (!o.normals.empty()) result["normals"] = array(std::move(o.normals), {3});
   if (!o.shape_operators.empty()) result["shape_operators"] = array(std::move(o.shape_operators), {3, 3});

@@ -25,6 +25,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace sma_python {
 
@@ -58,9 +59,16 @@ public:
       teller_{events},
       surface_(arrays),
       sources_(surface_.mesh.add_property_map<Vertex, Source>("v:source").first),
-      metric_(surface_.mesh.add_property_map<Vertex, SMA::Metric_tensor_3>("v:metric", unknown_metric()).first)
+      metric_(surface_.mesh.add_property_map<Vertex, SMA::Metric_tensor_3>("v:metric", unknown_metric()).first),
+      origin_(surface_.mesh.add_property_map<Vertex, Vertex>("v:origin").first)
   {
-    for (const Vertex v : surface_.mesh.vertices()) sources_[v] = Source(surface_.point_of_vertex[v]);
+    for (const Vertex v : surface_.mesh.vertices()) {
+      sources_[v] = Source(surface_.point_of_vertex[v]);
+      origin_[v] = v; // of those that are not looked at
+    }
+    for (const Face f : surface_.mesh.faces())
+      if (!arrays.selected_faces.empty() && is_selected(f)) selected_.push_back(f);
+    if (options.wants_face_origin) number_triangles();
   }
 
   Outcome operator()(const std::string& kernel)
@@ -73,7 +81,14 @@ public:
                               .smooth_borders(options_.smooth_borders)
                               .edge_is_constrained_map(surface_.edge_is_constrained)
                               .vertex_is_constrained_map(surface_.vertex_is_constrained)
+                              .edge_is_protected_map(surface_.edge_is_protected)
+                              .protected_gradation(protected_gradation())
+                              .face_patch_map(surface_.label)
+                              .face_size_bounds_map(surface_.size_bounds)
                               .vertex_attribute_maps(std::make_tuple(sources_))
+                              .face_attribute_maps(face_maps_)
+                              .halfedge_attribute_maps(surface_.at_corners)
+                              .vertex_origin_map(origin_)
                               .maximum_number_of_vertices(options_.max_vertices)
                               .output_metric_map(metric_)
                               .tolerance(tolerance)
@@ -91,6 +106,34 @@ public:
 private:
   static SMA::Metric_tensor_3 unknown_metric() { return {0, 0, 0, 0, 0, 0}; }
   static double given(double value, double by_default) { return value > 0 ? value : by_default; }
+
+  double protected_gradation() const
+  {
+    return options_.protected_gradation >= 0 ? options_.protected_gradation : SMA::default_gradation;
+  }
+
+  bool is_selected(Face f) const
+  {
+    const std::size_t t = surface_.triangle_of_face[f];
+    return t != SMA::Repair_report::none && input_.selected_faces.data[t] != 0;
+  }
+
+  /// Numbers are carried as other values are: exactly, as they are those of one face each.
+  void number_triangles()
+  {
+    face_maps_.push_back(surface_.mesh.template add_property_map<Face, double>("f:origin", -1).first);
+    for (const Face f : surface_.mesh.faces()) {
+      const std::size_t t = surface_.triangle_of_face[f];
+      if (t != SMA::Repair_report::none) face_maps_[0][f] = double(t);
+    }
+  }
+
+  /// `call(mesh)`, or `call(faces, mesh)` where only these are to be adapted.
+  template <class Call>
+  auto on_mesh(const Call& call)
+  {
+    return input_.selected_faces.empty() ? call(surface_.mesh) : call(selected_, surface_.mesh);
+  }
 
   // normals and shape operators
 
@@ -165,7 +208,7 @@ private:
   void adapt(const Chosen_field& field, const NamedParameters& np)
   {
     const SMA::Adaptation_report report = with_execution(options_.execution, [&](const auto& execution) {
-      return SMA::adapt_surface_mesh(execution, surface_.mesh, field, np);
+      return on_mesh([&](auto&... what) { return SMA::adapt_surface_mesh(execution, what..., field, np); });
     });
     std::ostringstream json;
     json.precision(std::numeric_limits<double>::max_digits10);
@@ -178,34 +221,43 @@ private:
                         const NamedParameters& parameters)
   {
     constexpr unsigned sweeps = 24, moves = 10;
-    Mesh& mesh = surface_.mesh;
     const auto np = parameters.number_of_iterations(iterations(kernel == "relocate" ? moves : sweeps));
-    if (kernel == "refine") return SMA::refine(execution, mesh, field, np);
-    if (kernel == "swap") return SMA::swap(execution, mesh, field, np);
-    if (kernel == "regularize") return SMA::regularize(execution, mesh, field, np);
+    if (kernel == "refine") return on_mesh([&](auto&... what) { return SMA::refine(execution, what..., field, np); });
+    if (kernel == "swap") return on_mesh([&](auto&... what) { return SMA::swap(execution, what..., field, np); });
+    if (kernel == "regularize")
+      return on_mesh([&](auto&... what) { return SMA::regularize(execution, what..., field, np); });
     const double deviation = given(options_.max_normal_deviation, 180);
-    if (kernel == "relocate") return SMA::relocate(execution, mesh, field, np.maximum_normal_deviation(deviation));
+    if (kernel == "relocate") {
+      const auto limited = np.maximum_normal_deviation(deviation);
+      return on_mesh([&](auto&... what) { return SMA::relocate(execution, what..., field, limited); });
+    }
     if (!(options_.max_normal_deviation > 0 || options_.max_distance > 0))
-      return SMA::simplify(execution, mesh, field, np);
+      return on_mesh([&](auto&... what) { return SMA::simplify(execution, what..., field, np); });
     const auto limits = parameters.maximum_normal_deviation(deviation)
                           .maximum_distance(given(options_.max_distance, std::numeric_limits<double>::infinity()))
                           .number_of_iterations(iterations((std::numeric_limits<unsigned>::max)()));
-    return SMA::simplify(execution, mesh, field, limits);
+    return on_mesh([&](auto&... what) { return SMA::simplify(execution, what..., field, limits); });
   }
 
   // the result
 
   void write()
   {
+    surface_.mesh.collect_garbage(); // of a selection
     outcome_.repairs = std::move(surface_.repairs);
     outcome_.warnings = std::move(surface_.warnings);
     write_faces();
     write_vertices();
     if (normals_) write_jets();
-    for (const Edge e : surface_.mesh.edges())
-      if (surface_.edge_is_constrained[e])
-        for (int i = 0; i < 2; ++i)
-          outcome_.feature_edges.push_back(std::int64_t(surface_.mesh.vertex(e, unsigned(i))));
+    for (const Edge e : surface_.mesh.edges()) {
+      if (surface_.edge_is_constrained[e]) append_edge(e, outcome_.feature_edges);
+      if (surface_.edge_is_protected[e]) append_edge(e, outcome_.protected_edges);
+    }
+  }
+
+  void append_edge(Edge e, std::vector<std::int64_t>& edges) const
+  {
+    for (int i = 0; i < 2; ++i) edges.push_back(std::int64_t(surface_.mesh.vertex(e, unsigned(i))));
   }
 
   void write_faces()
@@ -215,6 +267,14 @@ private:
     outcome_.triangles.reserve(3 * std::size_t(mesh.number_of_faces()));
     for (const auto f : mesh.faces())
       for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) outcome_.triangles.push_back(std::int64_t(v));
+    if (!input_.labels.empty())
+      for (const Face f : mesh.faces()) outcome_.labels.push_back(surface_.label[f]);
+    if (!face_maps_.empty())
+      for (const Face f : mesh.faces()) outcome_.face_origin.push_back(std::int64_t(face_maps_[0][f]));
+    if (surface_.at_corners.empty()) return;
+    for (const Face f : mesh.faces()) // in the order of the triangles' corners
+      for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
+        for (const auto& map : surface_.at_corners) outcome_.corner_values.push_back(map[h]);
   }
 
   void write_vertices()
@@ -232,6 +292,8 @@ private:
       const Source& s = sources_[v];
       outcome_.source_points.insert(outcome_.source_points.end(), s.points.begin(), s.points.end());
       outcome_.source_weights.insert(outcome_.source_weights.end(), s.weights.begin(), s.weights.end());
+      const bool is_old = origin_[v] != Mesh::null_vertex();
+      outcome_.vertex_origin.push_back(is_old ? std::int64_t(surface_.point_of_vertex[origin_[v]]) : -1);
       if (surface_.vertex_is_constrained[v]) outcome_.constrained_vertices.push_back(std::int64_t(v));
     }
   }
@@ -251,6 +313,9 @@ private:
   Array_surface surface_;
   Mesh::Property_map<Vertex, Source> sources_;
   Mesh::Property_map<Vertex, SMA::Metric_tensor_3> metric_;
+  Mesh::Property_map<Vertex, Vertex> origin_;
+  std::vector<Mesh::Property_map<Face, double>> face_maps_; // the numbers of triangles, if they are wanted
+  std::vector<Face> selected_;
   Mesh::Property_map<Vertex, Vector> normals_;
   Mesh::Property_map<Vertex, SMA::Metric_tensor_3> shape_operators_;
   Outcome outcome_;

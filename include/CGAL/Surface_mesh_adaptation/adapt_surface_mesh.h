@@ -18,6 +18,7 @@
 #include <functional>
 #include <type_traits>
 #include <utility>
+#include <variant>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -65,6 +66,13 @@ void warn_of_bulges(const Any_execution& execution, const Curvature_metric_field
                             number(std::round(bulge / tolerance)) +
                             " times the tolerance of the sizes: the input is coarse for that. A flat "
                             "reconstruction (`--flat`) keeps to its faces");
+}
+
+template <class... Fields, class Reference>
+void warn_of_bulges(const Any_execution& execution, const std::variant<Fields...>& chosen, const Reference& reference,
+                    Adaptation_report& report)
+{
+  std::visit([&](const auto& field) { warn_of_bulges(execution, field, reference, report); }, chosen);
 }
 
 /// `adapt_surface_mesh` with a policy that is known at run time only: compiled once for all policies.
@@ -115,8 +123,8 @@ step at the end: if anything throws, it is as it was.
        are meaningful afterwards, and of the usual types those of the vertices of a `Surface_mesh`, at the vertices that
        are still there. Coordinates are converted to `double`.
 \param field what to adapt to, a model of `MetricField`: `Uniform_metric_field`, `Curvature_metric_field`,
-       `Solution_metric_field`, `Analytic_metric_field`, an `Intersection_metric_field` of several, or a property map
-       from vertices to sizes or to `Metric_tensor_3`.
+       `Solution_metric_field`, `Analytic_metric_field`, an `Intersection_metric_field` of several, a property map from
+       vertices to sizes or to `Metric_tensor_3`, or a `std::variant` of these, to choose while the program runs.
 \param np named parameters, from `parameters` of this namespace or of CGAL
 
 \cgalNamedParamsBegin

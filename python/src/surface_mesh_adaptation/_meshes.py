@@ -26,6 +26,9 @@ class Surface:
     triangles: Array
     attributes: dict[str, Array] = field(default_factory=dict)  #: at the points
     face_attributes: dict[str, Array] = field(default_factory=dict)
+    corner_attributes: dict[str, Array] = field(default_factory=dict)  #: at the corners of triangles, (m, 3, ...)
+    labels: Array | None = None  #: of the triangles
+    label_names: Array | None = None  #: the different ones
     constrained_edges: Array | None = None
     constrained_vertices: Array | None = None
     rebuild: Callable[[Result], Any] | None = None  #: makes the kind of object that it came from
@@ -83,6 +86,8 @@ def _to_pyvista(result: Result, fields: dict[str, Array]) -> Any:
     mesh = pyvista.PolyData(result.points, faces)
     for name, values in result.attributes.items():
         mesh.point_data[name] = values
+    for name, values in result.face_attributes.items():
+        mesh.cell_data[name] = values
     for name, values in fields.items():
         mesh.field_data[name] = values
     return mesh
@@ -90,7 +95,7 @@ def _to_pyvista(result: Result, fields: dict[str, Array]) -> Any:
 
 # trimesh
 
-_COLOURS, _UV = "trimesh:vertex_colors", "trimesh:uv"
+_COLOURS, _FACE_COLOURS, _UV = "trimesh:vertex_colors", "trimesh:face_colors", "trimesh:uv"
 
 
 def _of_trimesh(mesh: Any) -> Surface:
@@ -101,7 +106,7 @@ def _of_trimesh(mesh: Any) -> Surface:
     if mesh.visual.kind == "vertex":
         surface.attributes[_COLOURS] = np.asarray(mesh.visual.vertex_colors)
     elif mesh.visual.kind == "face":
-        surface.face_attributes["trimesh:face_colors"] = np.asarray(mesh.visual.face_colors)
+        surface.face_attributes[_FACE_COLOURS] = np.asarray(mesh.visual.face_colors)
     elif mesh.visual.kind == "texture" and mesh.visual.uv is not None:
         surface.attributes[_UV] = np.asarray(mesh.visual.uv)
         material = mesh.visual.material
@@ -114,6 +119,11 @@ def _to_trimesh(result: Result, material: Any, metadata: dict[str, Any]) -> Any:
     import trimesh
 
     mesh: Any = trimesh.Trimesh(result.points, result.triangles, process=False, metadata=metadata)
+    for name, values in result.face_attributes.items():
+        if name == _FACE_COLOURS:
+            mesh.visual.face_colors = values
+        else:
+            mesh.face_attributes[name] = values
     for name, values in result.attributes.items():
         if name == _COLOURS:
             mesh.visual.vertex_colors = values
@@ -126,6 +136,9 @@ def _to_trimesh(result: Result, material: Any, metadata: dict[str, Any]) -> Any:
 
 
 # meshio
+
+#: Cell data that say what a face is a part of: physical groups of Gmsh, references of MEDIT, materials.
+_LABELS = ("gmsh:physical", "medit:ref", "cell_tags", "MaterialIds")
 
 
 def _of_meshio(mesh: Any) -> Surface:
@@ -150,6 +163,7 @@ def _of_meshio(mesh: Any) -> Surface:
     surface = _of_arrays(points, np.concatenate(parts["triangle"]))
     surface.attributes = {name: np.asarray(values) for name, values in mesh.point_data.items()}
     surface.face_attributes = {name: np.concatenate(values) for name, values in data.items()}
+    surface.labels = next((surface.face_attributes[name] for name in _LABELS if name in surface.face_attributes), None)
     surface.constrained_edges = np.concatenate(parts["line"]) if parts["line"] else None
     surface.constrained_vertices = np.concatenate(parts["vertex"]).ravel() if parts["vertex"] else None
     surface.warnings = ["not kept: " + ", ".join(left_out)] if left_out else []
@@ -170,9 +184,12 @@ def _to_meshio(result: Result, has_lines: bool, field_data: dict[str, Any]) -> A
     import meshio
 
     cells = [("triangle", result.triangles)]
-    if has_lines:
+    data = {name: [values] for name, values in result.face_attributes.items()}
+    if has_lines and len(result.feature_edges) > 0:
         cells.append(("line", result.feature_edges))
-    return meshio.Mesh(result.points, cells, point_data=dict(result.attributes), field_data=field_data)
+        for values in data.values():
+            values.append(np.zeros((len(result.feature_edges), *values[0].shape[1:]), dtype=values[0].dtype))
+    return meshio.Mesh(result.points, cells, dict(result.attributes), data, field_data=field_data)
 
 
 _KINDS: list[tuple[str, str, Callable[[Any], Surface]]] = [

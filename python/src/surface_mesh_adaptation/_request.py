@@ -29,6 +29,7 @@ _NUMBERS: dict[str, tuple[type, str, Any]] = {
     "max_vertices": (int, *_COUNT),
     "threads": (int, *_COUNT),
     "iterations": (int, "a whole number, at least 0 and below 2^31", lambda n: 0 <= n < 2**31),
+    "protected_gradation": (float, "a finite number, at least 0", lambda x: math.isfinite(x) and x >= 0),
     "gradation": (float, "a finite number, at least 1", lambda x: math.isfinite(x) and x >= 1),
     "max_anisotropy": (float, *_AT_LEAST_1),
     "norm": (float, *_AT_LEAST_1),
@@ -38,8 +39,22 @@ _NUMBERS: dict[str, tuple[type, str, Any]] = {
 }
 _SWITCHES = ("anisotropic", "noisy", "detect_features", "smooth_borders", "fit", "weld", "repair")
 _CHOICES = {"reconstruction": ("patches", "flat"), "execution": ("sequential", "tbb", "openmp")}
-_ARRAYS = ("size", "metric", "field", "constrained_edges", "constrained_vertices", "normals", "shape_operators")
-KEYWORDS = frozenset([*_NUMBERS, *_SWITCHES, *_CHOICES, *_ARRAYS, "attributes"])
+_ARRAYS = (
+    "size",
+    "metric",
+    "field",
+    "constrained_edges",
+    "constrained_vertices",
+    "protected_edges",
+    "protected_faces",
+    "faces",
+    "labels",
+    "size_bounds",
+    "normals",
+    "shape_operators",
+)
+_ATTRIBUTES = ("attributes", "face_attributes", "corner_attributes")
+KEYWORDS = frozenset([*_NUMBERS, *_SWITCHES, *_CHOICES, *_ARRAYS, *_ATTRIBUTES, "face_origin"])
 
 
 def _number(name: str, value: Any) -> Any:
@@ -81,7 +96,41 @@ def surface_request(surface: Surface, options: Request) -> Request:
     triangles = surface.triangles
     request["triangles"] = triangles if request.get("repair") else indices("triangles", triangles, 3, n)
     request.update(_constraints(surface, given, n))
+    request.update(_of_faces(surface, given, n))
     return request
+
+
+def _of_faces(surface: Surface, given: Request, n: int) -> Request:
+    """What is given for triangles, and for their corners."""
+    m = len(surface.triangles)
+    request: Request = {}
+    for name, key in (("protected_faces", "protected_faces"), ("faces", "selected_faces")):
+        if name in given:
+            request[key] = mask(name, given[name], m)
+    if "faces" in given and not request["selected_faces"].any():
+        raise Invalid_parameter_error("faces: expected one at least")
+    if "protected_edges" in given:
+        edges = indices("protected_edges", given["protected_edges"], 2, n)
+        if len(edges) > 0:
+            request["protected_edges"] = edges
+    if "size_bounds" in given:
+        request["size_bounds"] = numbers("size_bounds", given["size_bounds"], (m, 2))
+    labels = given.get("labels", surface.labels)
+    if labels is not None:
+        surface.label_names, request["labels"] = _numbered_labels(labels, m)
+    if surface.corner_attributes:
+        flat = [v.reshape(m, 3, -1) for v in surface.corner_attributes.values()]
+        request["corner_values"] = np.ascontiguousarray(np.concatenate(flat, axis=2).reshape(m, -1), dtype=np.float64)
+    return request
+
+
+def _numbered_labels(labels: Any, m: int) -> tuple[Array, Array]:
+    """The different labels, and the number of each among these."""
+    array = np.asarray(labels)
+    if array.shape != (m,):
+        raise ValueError(f"labels: expected one for each triangle, ({m},), not an array of shape {array.shape}")
+    names, number = np.unique(array, return_inverse=True)
+    return names, np.ascontiguousarray(number.reshape(m), dtype=np.int32)
 
 
 def _constraints(surface: Surface, given: Request, n: int) -> Request:

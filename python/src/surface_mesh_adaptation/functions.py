@@ -31,12 +31,21 @@ def _add_attributes(surface: Surface, attributes: Mapping[str, Any] | None) -> N
         surface.attributes[name] = array
 
 
+def _add_of_faces(
+    surface: Surface, name: str, rows: tuple[int, ...], given: Mapping[str, Any] | None, kept: dict[str, Array]
+) -> None:
+    """Adds attributes of triangles or of their corners."""
+    for key, values in (given or {}).items():
+        array = np.asarray(values)
+        if array.shape[: len(rows)] != rows:
+            raise ValueError(f"{name}[{key!r}]: expected an array of shape {rows} or {rows} + (k,), not {array.shape}")
+        kept[key] = array
+
+
 def _report(raw: dict[str, Any], surface: Surface) -> Report:
     report = Report.from_json(raw["report"]) if raw["report"] else Report()
     report.repairs += raw["repairs"]
     report.warnings += raw["warnings"] + surface.warnings
-    if surface.face_attributes:
-        report.warnings.append("not kept: attributes of faces: " + ", ".join(surface.face_attributes))
     return report
 
 
@@ -57,10 +66,31 @@ def _result(raw: dict[str, Any], surface: Surface) -> Result:
         normals=raw.get("normals"),
         shape_operators=raw.get("shape_operators"),
         seconds=raw["seconds"],
+        protected_edges=raw["protected_edges"],
+        vertex_origin=raw["vertex_origin"],
+        face_origin=raw["face_origin"] if len(raw["face_origin"]) > 0 else None,
+        labels=None if surface.label_names is None else surface.label_names[raw["labels"]],
+        corner_attributes=_corners(raw["corner_values"], surface),
         input=surface,
     )
+    if surface.face_attributes and result.face_origin is not None:
+        result.face_attributes = {name: v[result.face_origin] for name, v in surface.face_attributes.items()}
     result.attributes = {name: result.interpolate(values) for name, values in surface.attributes.items()}
     result.report._result = result
+    return result
+
+
+def _corners(values: Array, surface: Surface) -> dict[str, Array]:
+    """The attributes of corners, each in its shape, from all of them side by side."""
+    if not surface.corner_attributes:
+        return {}
+    m, result, at = len(surface.triangles), {}, 0
+    width = sum(v.size // (3 * m) for v in surface.corner_attributes.values())
+    rows = values.reshape(-1, 3, width)
+    for name, given in surface.corner_attributes.items():
+        k = given.size // (3 * m)
+        result[name] = rows[:, :, at : at + k].reshape((len(rows), 3, *given.shape[2:])).astype(given.dtype)
+        at += k
     return result
 
 
@@ -74,7 +104,13 @@ def _run(
 ) -> Any:
     surface = surface_of(mesh, triangles)
     _add_attributes(surface, options.pop("attributes", None))
+    m = len(surface.triangles)
+    _add_of_faces(surface, "face_attributes", (m,), options.pop("face_attributes", None), surface.face_attributes)
+    corners = options.pop("corner_attributes", None)
+    _add_of_faces(surface, "corner_attributes", (m, 3), corners, surface.corner_attributes)
+    wants_origin = bool(options.pop("face_origin", False)) or bool(surface.face_attributes)
     request = run_request(surface, options)
+    request["wants_face_origin"] = wants_origin
     with Follower(progress) as callback:
         raw = _core.run(kernel, request, callback)
     result = _result(raw, surface)
@@ -103,7 +139,16 @@ def adapt(
     smooth_borders: bool = False,
     constrained_edges: Any = None,
     constrained_vertices: Any = None,
+    protected_edges: Any = None,
+    protected_faces: Any = None,
+    protected_gradation: float | None = None,
+    faces: Any = None,
+    labels: Any = None,
+    size_bounds: Any = None,
     attributes: Mapping[str, Any] | None = None,
+    face_attributes: Mapping[str, Any] | None = None,
+    corner_attributes: Mapping[str, Any] | None = None,
+    face_origin: bool = False,
     reconstruction: str | None = None,
     fit: bool = False,
     shape_weight: float | None = None,
@@ -170,8 +215,29 @@ def adapt(
         Edges of the input, by their points, that stay chains of edges.
     constrained_vertices : array of booleans (n,) or of indices, optional
         Vertices that stay where they are.
+    protected_edges : array of shape (k, 2) of integers, optional
+        Edges of the input, by their points, that stay in one piece, between vertices that stay where they are.
+    protected_faces : array of booleans (m,) or of indices, optional
+        Triangles that stay as they are.
+    protected_gradation : float, optional
+        How fast sizes come back to those of the metric with the distance from protected edges, whose lengths they
+        follow; 1.5 by default, at most 1: they do not.
+    faces : array of booleans (m,) or of indices, optional
+        The triangles that are adapted; all others stay as they are.
+    labels : array (m,), optional
+        A number or a name for each triangle, such as its material: the result has them, and their borders are curves.
+        Of a meshio.Mesh, by default, its physical groups or references.
+    size_bounds : array (m, 2), optional
+        The smallest and the largest size in each triangle; 0: no bound.
     attributes : dict of arrays, optional
         Values at the points that the result is to have, too; see `Result.interpolate`.
+    face_attributes : dict of arrays (m, ...), optional
+        Values at the triangles, those of the triangle of the input below the centre.
+    corner_attributes : dict of arrays (m, 3, ...) of numbers, optional
+        Values at the corners of the triangles, such as texture coordinates; where the sides of an edge differ is a seam,
+        which no triangle crosses.
+    face_origin : bool
+        Whether `Result.face_origin` is wanted; it is there, too, if there are attributes of faces.
     reconstruction : {"patches", "flat"}, optional
         The surface between the points: smooth patches through them, or the triangles themselves.
     fit : bool

@@ -34,6 +34,12 @@ class Result:
     normals: Array | None = None  #: (n, 3), if normals or shape operators were given
     shape_operators: Array | None = None  #: (n, 3, 3), the same
     seconds: float = 0.0  #: that the C++ functions took
+    protected_edges: Array | None = None  #: (k, 2), int64: edges that were to stay in one piece
+    vertex_origin: Array | None = None  #: (n,), int64: the point of the input that a vertex was, or -1
+    face_origin: Array | None = None  #: (m,), int64, if asked for: the triangle of the input below the centre
+    labels: Array | None = None  #: (m,), if there were any
+    face_attributes: dict[str, Array] = field(default_factory=dict)
+    corner_attributes: dict[str, Array] = field(default_factory=dict)  #: (m, 3, ...) each
     input: Surface | None = field(default=None, repr=False)
 
     def interpolate(self, values: Any) -> Array:

@@ -451,6 +451,29 @@ TEST(Range_of_faces, leaves_the_rest_as_it_is)
   }
 }
 
+TEST(Range_of_faces, knows_where_its_elements_come_from)
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(3));
+  const Mesh before = mesh;
+  std::vector<Face> selected;
+  for (const Face f : mesh.faces())
+    if (centroid(mesh, f)[2] > 0.3) selected.push_back(f);
+  auto vertex = mesh.add_property_map<Vertex, int>("v:origin", -2).first;
+  auto face = mesh.add_property_map<Face, int>("f:origin", -2).first;
+  SMA::adapt_surface_mesh<CGAL::Sequential_tag>(selected, mesh, SMA::Uniform_metric_field(0.06),
+                                                params::vertex_origin_map(vertex).face_origin_map(face));
+  std::size_t n = 0;
+  for (const Vertex v : mesh.vertices()) // those outside keep what they had
+    if (vertex[v] >= 0) ++n, EXPECT_EQ(Vertex(Mesh::size_type(vertex[v])), v);
+  EXPECT_GT(n, 0u);
+  for (const Face f : mesh.faces()) {
+    if (face[f] == -2) continue;
+    const Vector_3 at = centroid(before, Face(Mesh::size_type(face[f])));
+    EXPECT_LT((centroid(mesh, f) - at).norm(), 0.15);
+    EXPECT_GT(at[2], 0.3);
+  }
+}
+
 TEST(Range_of_faces, conforms_inside)
 {
   Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(4));

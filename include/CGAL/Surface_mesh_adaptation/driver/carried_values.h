@@ -11,7 +11,6 @@
 #include <CGAL/Surface_mesh_adaptation/driver/face_labels.h>
 #include <CGAL/Surface_mesh_adaptation/driver/kept_properties.h>
 #include <CGAL/Surface_mesh_adaptation/driver/unpack_parameters.h>
-#include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 
 #include <tuple>
 #include <type_traits>
@@ -58,7 +57,7 @@ public:
 
   /// Writes them to the result.
   template <class Surface>
-  void write(const Surface& surface, const Renumbering& numbers)
+  void write(const Surface& surface)
   {
     properties_.write(domain_, surface);
     write_constraints(domain_, surface, features_, np_);
@@ -66,7 +65,7 @@ public:
     at_vertices_.write(domain_, surface);
     at_faces_.write(domain_, below_);
     at_corners_.write(domain_, surface);
-    origins_.write(domain_, surface, numbers, below_);
+    origins_.write(domain_, surface, below_);
   }
 
 private:

@@ -22,6 +22,8 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -114,6 +116,9 @@ constexpr bool is_metric_field<Analytic_metric_field<Function>, Graph> = is_metr
 template <class... Fields, class Graph>
 constexpr bool is_metric_field<Intersection_metric_field<Fields...>, Graph> = (is_metric_field<Fields, Graph> && ...);
 
+template <class... Fields, class Graph>
+constexpr bool is_metric_field<std::variant<Fields...>, Graph> = (is_metric_field<Fields, Graph> && ...);
+
 // The other concepts
 
 template <class T, class = void> constexpr bool is_surface_reconstruction = false;
@@ -135,6 +140,8 @@ template <class T> constexpr bool is_adaptation_visitor<std::reference_wrapper<T
 template <class T, class Key> constexpr bool are_read_write_maps = false;
 template <class... Maps, class Key>
 constexpr bool are_read_write_maps<std::tuple<Maps...>, Key> = (is_read_write<Maps, Key> && ...);
+template <class Map, class Allocator, class Key>
+constexpr bool are_read_write_maps<std::vector<Map, Allocator>, Key> = is_read_write<Map, Key>;
 
 // Named parameters
 
@@ -156,6 +163,10 @@ struct Maps_of
   template <class M> struct Metrics : std::bool_constant<is_writable_with<M, Vertex, Metric_tensor_3>> {};
   template <class M> struct Shape_operators : std::bool_constant<is_readable_as<M, Vertex, Metric_tensor_3>> {};
   template <class M> struct Attributes : std::bool_constant<are_read_write_maps<M, Vertex>> {};
+  template <class M> struct Face_attributes : std::bool_constant<are_read_write_maps<M, Face_of<Graph>>> {};
+  template <class M> struct Corner_attributes : std::bool_constant<are_read_write_maps<M, Halfedge_of<Graph>>> {};
+  template <class M> struct Size_bounds
+    : std::bool_constant<is_readable_as<M, Face_of<Graph>, std::pair<double, double>>> {};
 };
 template <class T> struct Is_reconstruction : std::bool_constant<is_surface_reconstruction<T>> {};
 template <class T> struct Is_visitor : std::bool_constant<is_adaptation_visitor<T>> {};
@@ -185,7 +196,15 @@ constexpr bool check_parameters()
   static_assert(is_absent_or<NP, internal_np::output_metric_map_t, Maps::template Metrics>,
                 "output_metric_map must be a WritablePropertyMap, from vertices to Metric_tensor_3");
   static_assert(is_absent_or<NP, internal_np::vertex_attribute_maps_t, Maps::template Attributes>,
-                "vertex_attribute_maps must be a std::tuple of ReadWritePropertyMaps of the vertices");
+                "vertex_attribute_maps must be a std::tuple of ReadWritePropertyMaps of the vertices, or a std::vector");
+  static_assert(is_absent_or<NP, internal_np::face_attribute_maps_t, Maps::template Face_attributes>,
+                "face_attribute_maps must be a std::tuple of ReadWritePropertyMaps of the faces, or a std::vector");
+  static_assert(is_absent_or<NP, internal_np::halfedge_attribute_maps_t, Maps::template Corner_attributes>,
+                "halfedge_attribute_maps must be a std::tuple of ReadWritePropertyMaps of the halfedges, or a std::vector");
+  static_assert(is_absent_or<NP, internal_np::face_size_bounds_map_t, Maps::template Size_bounds>,
+                "face_size_bounds_map must be a ReadablePropertyMap, from faces to std::pair<double, double>");
+  static_assert(is_absent_or<NP, internal_np::edge_is_protected_map_t, Maps::template Edge_marks>,
+                "edge_is_protected_map must be a ReadablePropertyMap, from edges to bool");
   static_assert(is_absent_or<NP, internal_np::surface_reconstruction_t, Is_reconstruction>,
                 "surface_reconstruction must be a model of SurfaceReconstruction");
   static_assert(is_absent_or<NP, CGAL::internal_np::visitor_t, Is_visitor>,

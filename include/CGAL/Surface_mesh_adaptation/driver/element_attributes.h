@@ -12,7 +12,8 @@
 #include <CGAL/Surface_mesh_adaptation/execution/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/surface/sector_location.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
-#include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
+
+#include <CGAL/boost/graph/properties.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/property_map/property_map.hpp>
@@ -177,13 +178,18 @@ public:
 
   Origins(const FaceGraph& graph, const Imported_mesh<FaceGraph>& imported, const NamedParameters& np) : np_(np)
   {
-    if constexpr (of_vertices) vertices_ = imported.vertices;
-    if constexpr (of_faces) faces_ = faces_of(graph, imported);
+    if constexpr (of_vertices) {
+      vertices_ = imported.vertices;
+      vertex_number_ = numbers(vertices(graph), vertices_, get(CGAL::dynamic_vertex_property_t<std::size_t>(), graph));
+    }
+    if constexpr (of_faces) {
+      faces_ = faces_of(graph, imported);
+      face_number_ = numbers(faces(graph), faces_, get(CGAL::dynamic_face_property_t<std::size_t>(), graph));
+    }
   }
 
-  /// `numbers` are those that the elements had in the graph.
   template <class Domain, class Surface>
-  void write(const Domain& domain, const Surface& surface, const Renumbering& numbers, const Buffer<Index>& below) const
+  void write(const Domain& domain, const Surface& surface, const Buffer<Index>& below) const
   {
     if constexpr (of_vertices) {
       const auto map = CGAL::parameters::get_parameter(np_, internal_np::vertex_origin_map);
@@ -191,20 +197,32 @@ public:
       domain.for_each_vertex([&](Index i, const auto& v) {
         const Index o = surface.origin[i];
         put(map, v, o == no_index ? origin_value<Map>(Traits::null_vertex(), std::size_t(-1))
-                                  : origin_value<Map>(vertices_[o], numbers.vertex(o)));
+                                  : origin_value<Map>(vertices_[o], vertex_number_[o]));
       });
     }
     if constexpr (of_faces) {
       const auto map = CGAL::parameters::get_parameter(np_, internal_np::face_origin_map);
       using Map = std::decay_t<decltype(map)>;
       domain.for_each_face([&](Index f, const auto& face) {
-        put(map, face, origin_value<Map>(faces_[below[f]], numbers.face(below[f])));
+        put(map, face, origin_value<Map>(faces_[below[f]], face_number_[below[f]]));
       });
     }
   }
 
 private:
+  /// The places of `some` elements among `all`.
+  template <class All, class Some, class Map>
+  static std::vector<std::size_t> numbers(const All& all, const Some& some, const Map& place)
+  {
+    std::size_t i = 0;
+    for (const auto& e : all) put(place, e, i++);
+    std::vector<std::size_t> result;
+    for (const auto& e : some) result.push_back(get(place, e));
+    return result;
+  }
+
   const NamedParameters& np_;
+  std::vector<std::size_t> vertex_number_, face_number_;
   std::vector<typename Traits::vertex_descriptor> vertices_;
   std::vector<typename Traits::face_descriptor> faces_;
 };

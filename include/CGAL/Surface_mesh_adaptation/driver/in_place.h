@@ -134,7 +134,7 @@ Adaptation_report adapt_uninterrupted(const Any_execution& execution, Domain& do
     domain.write(execution, imported, surface, points, [&](Index f) { return values.is_inside(surface.mesh, f); });
     write_metric(domain, surface, np);
     jets.write(domain);
-    values.write(surface, numbers);
+    values.write(surface);
     surface.release(execution);
   };
   const Vertex_size_bounds bounds = vertex_size_bounds(domain.graph(), imported, np);

@@ -26,6 +26,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace CGAL {
@@ -221,6 +222,12 @@ std::size_t number_of_vertices(const Field&, long)
   return 0;
 }
 
+template <class... Fields>
+std::size_t number_of_vertices(const std::variant<Fields...>& chosen, int)
+{
+  return std::visit([](const auto& field) { return number_of_vertices(field, 0); }, chosen);
+}
+
 /// A field as a part of an intersection: without what is not for a part to ask.
 template <class Field>
 auto as_part(Field field, int) -> decltype(void(field.gradation), Field(field))
@@ -399,6 +406,16 @@ void with_background_within(const Execution& execution, const Field& field, cons
     const Metric_aims asked = aims(execution, field, reference, values);
     use(Metric_background<Metric>(execution, std::move(values), asked));
   });
+}
+
+/// The same, of the field that a variant holds: what is asked for may be chosen while the program runs.
+template <class Execution, class... Fields, class Import, class Reference, class Use>
+void with_background_within(const Execution& execution, const std::variant<Fields...>& chosen, const Import& imported,
+                            const Reference& reference, const Vertex_size_bounds& bounds, const Use& use)
+{
+  std::visit([&](const auto& field) {
+    with_background_within(execution, field, imported, reference, bounds, use);
+  }, chosen);
 }
 
 } // namespace internal

@@ -124,13 +124,12 @@ double share_of_near_ends(const Execution& execution, const Mesh_view& mesh)
 /// at the scale of blocks, and are a poor order once they are refined.
 constexpr double good_locality = 0.7;
 
-/// The numbers that vertices and faces had before; none if they keep them.
+/// The numbers that vertices had before; none if they keep them.
 struct Renumbering
 {
-  std::vector<Index> vertices, faces;
+  std::vector<Index> vertices;
 
   Index vertex(Index v) const { return vertices.empty() ? v : vertices[v]; }
-  Index face(Index f) const { return faces.empty() ? f : faces[f]; }
 };
 
 /// Renumbers vertices along the Hilbert curve, and faces by their smallest vertex, unless the order is good already.
@@ -146,7 +145,7 @@ Renumbering improve_locality(const Execution& execution, Import& imported)
     face_key[f] = (std::min)({new_vertex[mesh.corner[3 * f]], new_vertex[mesh.corner[3 * f + 1]],
                               new_vertex[mesh.corner[3 * f + 2]]});
   });
-  std::vector<Index> face_order = sorted_by_key(execution, face_key);
+  const std::vector<Index> face_order = sorted_by_key(execution, face_key);
   const std::vector<Index> new_face = inverse(execution, face_order);
   const auto new_halfedge = [&](Index h) { return h == no_index ? h : 3 * new_face[h / 3] + h % 3; };
 
@@ -163,7 +162,7 @@ Renumbering improve_locality(const Execution& execution, Import& imported)
   reorder(execution, vertex_order, 1, mesh.outgoing);
   reorder(execution, vertex_order, 1, imported.points);
   reorder(execution, vertex_order, 1, imported.vertices);
-  return {std::move(vertex_order), std::move(face_order)};
+  return {std::move(vertex_order)};
 }
 
 } // namespace internal
