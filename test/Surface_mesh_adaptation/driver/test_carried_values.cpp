@@ -389,6 +389,18 @@ TEST(Origins, name_the_vertices_that_are_still_there)
   EXPECT_EQ(numbers.count(std::size_t(-1)), 1u);
 }
 
+TEST(Origins, do_not_bring_back_what_the_run_has_written)
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(3));
+  auto normal = mesh.add_property_map<Vertex, Kernel::Vector_3>("v:normal").first;
+  for (const Vertex v : mesh.vertices()) normal[v] = mesh.point(v) - CGAL::ORIGIN;
+  SMA::adapt_surface_mesh<CGAL::Sequential_tag>(mesh, SMA::Uniform_metric_field(0.15), params::vertex_normal_map(normal));
+  for (const Vertex v : mesh.vertices()) { // which have moved
+    const Vector_3 n(normal[v].x(), normal[v].y(), normal[v].z());
+    EXPECT_LT((n - vector(mesh.point(v)).normalized()).norm(), 5e-3);
+  }
+}
+
 /// All that a selection must leave alone.
 struct Outside
 {

@@ -132,9 +132,9 @@ Adaptation_report adapt_uninterrupted(const Any_execution& execution, Domain& do
       return surface.locations[v];
     }, np);
     domain.write(execution, imported, surface, points, [&](Index f) { return values.is_inside(surface.mesh, f); });
+    values.write(surface); // what nobody passed first
     write_metric(domain, surface, np);
     jets.write(domain);
-    values.write(surface);
     surface.release(execution);
   };
   const Vertex_size_bounds bounds = vertex_size_bounds(domain.graph(), imported, np);
