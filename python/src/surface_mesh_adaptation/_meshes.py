@@ -138,7 +138,7 @@ def _to_trimesh(result: Result, material: Any, metadata: dict[str, Any]) -> Any:
 # meshio
 
 #: Cell data that say what a face is a part of: physical groups of Gmsh, references of MEDIT, materials.
-_LABELS = ("gmsh:physical", "medit:ref", "cell_tags", "MaterialIds")
+_LABELS = ("gmsh:physical", "medit:ref", "cell_tags", "MaterialIds", "material")
 
 
 def _of_meshio(mesh: Any) -> Surface:

@@ -116,12 +116,21 @@ def _of_faces(surface: Surface, given: Request, n: int) -> Request:
     if "size_bounds" in given:
         request["size_bounds"] = numbers("size_bounds", given["size_bounds"], (m, 2))
     labels = given.get("labels", surface.labels)
+    if isinstance(labels, str):
+        labels = _attribute_of_faces("labels", labels, surface)
     if labels is not None:
         surface.label_names, request["labels"] = _numbered_labels(labels, m)
     if surface.corner_attributes:
         flat = [v.reshape(m, 3, -1) for v in surface.corner_attributes.values()]
         request["corner_values"] = np.ascontiguousarray(np.concatenate(flat, axis=2).reshape(m, -1), dtype=np.float64)
     return request
+
+
+def _attribute_of_faces(name: str, value: str, surface: Surface) -> Array:
+    if value not in surface.face_attributes:
+        known = ", ".join(map(repr, surface.face_attributes)) or "none"
+        raise Invalid_parameter_error(f"{name}: there is no attribute {value!r}; attributes at triangles: {known}")
+    return surface.face_attributes[value]
 
 
 def _numbered_labels(labels: Any, m: int) -> tuple[Array, Array]:

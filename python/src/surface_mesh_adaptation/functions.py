@@ -89,7 +89,7 @@ def _corners(values: Array, surface: Surface) -> dict[str, Array]:
     rows = values.reshape(-1, 3, width)
     for name, given in surface.corner_attributes.items():
         k = given.size // (3 * m)
-        result[name] = rows[:, :, at : at + k].reshape((len(rows), 3, *given.shape[2:])).astype(given.dtype)
+        result[name] = rows[:, :, at : at + k].reshape((len(rows), 3, *given.shape[2:])).astype(given.dtype if given.dtype.kind == "f" else np.float64)
         at += k
     return result
 
@@ -225,8 +225,8 @@ def adapt(
     faces : array of booleans (m,) or of indices, optional
         The triangles that are adapted; all others stay as they are.
     labels : array (m,), optional
-        A number or a name for each triangle, such as its material: the result has them, and their borders are curves.
-        Of a meshio.Mesh, by default, its physical groups or references.
+        A number or a name for each triangle, such as its material, or the name of an attribute of the triangles: the
+        result has them, and their borders are curves. Of a meshio.Mesh, by default, its physical groups or references.
     size_bounds : array (m, 2), optional
         The smallest and the largest size in each triangle; 0: no bound.
     attributes : dict of arrays, optional
