@@ -159,7 +159,7 @@ void parse_medit(const std::string& text, const std::string& file, Constrained_m
   SMA::Repair_report report = build(soup, options, result);
   marks.put_on(result, report.point_of_vertex);
   Soup_content(soup, {}, report).put_on(result, options.references);
-  put_content(medit, place, report, result);
+  Medit_elements(medit, place, report, result).put();
   if (has_volume(medit)) report.isolated_points = SMA::Soup_defect();
   Findings found(report);
   const SMA::Soup_defect edges = marks.stray_edges(), vertices = marks.stray_vertices();

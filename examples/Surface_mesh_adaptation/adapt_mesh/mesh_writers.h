@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <optional>
@@ -130,39 +131,64 @@ inline std::string ply_type(const Number_type& t)
 
 } // namespace internal
 
+namespace internal {
+
+inline std::string ply_properties(const char* type, std::initializer_list<const char*> names)
+{
+  std::string lines;
+  for (const char* name : names) lines += std::string("property ") + type + " " + name + "\n";
+  return lines;
+}
+
+template <class Element>
+std::string ply_properties(const std::vector<Attribute<Element>>& attributes)
+{
+  std::string lines;
+  for (const auto& a : attributes) lines += "property " + ply_type(a.type) + " " + a.name + "\n";
+  return lines;
+}
+
+inline void write_ply_header(Output_buffer& out, const Constrained_mesh& m)
+{
+  const std::uint16_t one = 1;
+  const bool is_little = *reinterpret_cast<const char*>(&one) == 1;
+  out << "ply\nformat binary_" + std::string(is_little ? "little" : "big") + "_endian 1.0\n";
+  out << "element vertex " << m.mesh.number_of_vertices() << "\n" + ply_properties("double", {"x", "y", "z"});
+  if (m.has_normals) out << ply_properties("double", {"nx", "ny", "nz"});
+  out << ply_properties(m.at_vertices) << "element face " << m.mesh.number_of_faces() << "\n";
+  out << ply_properties("list uchar int", {"vertex_indices"}) << ply_properties(m.at_faces);
+  if (m.has_labels) out << ply_properties("int", {"label"});
+  if (!m.at_corners.empty()) out << ply_properties("list uchar double", {"texcoord"});
+  out << "end_header\n";
+}
+
+inline void write_ply_face(Output_buffer& out, const Constrained_mesh& m, Face f)
+{
+  out.binary(std::uint8_t(3));
+  for (const Vertex v : m.mesh.vertices_around_face(m.mesh.halfedge(f))) out.binary(std::int32_t(v));
+  for (const auto& a : m.at_faces) out.binary(a.map[f], a.type);
+  if (m.has_labels) out.binary(std::int32_t(m.label[f]));
+  if (m.at_corners.empty()) return;
+  out.binary(std::uint8_t(3 * m.at_corners.size()));
+  for (const Halfedge h : m.mesh.halfedges_around_face(m.mesh.halfedge(f)))
+    for (const auto& a : m.at_corners) out.binary(a.map[h]);
+}
+
+} // namespace internal
+
 /// Binary, of the byte order of the machine. Labels are the column `label`.
 inline void write_ply(std::ostream& stream, const Constrained_mesh& m)
 {
-  const Mesh& mesh = m.mesh;
   const internal::Output_normals normals(m);
-  const std::uint16_t one = 1;
-  const bool is_little = *reinterpret_cast<const char*>(&one) == 1;
   internal::Output_buffer out(stream);
-  out << "ply\nformat binary_" + std::string(is_little ? "little" : "big") + "_endian 1.0\nelement vertex "
-      << mesh.number_of_vertices() << "\nproperty double x\nproperty double y\nproperty double z\n";
-  if (normals.exist()) out << "property double nx\nproperty double ny\nproperty double nz\n";
-  for (const auto& a : m.at_vertices) out << "property " + internal::ply_type(a.type) + " " + a.name + "\n";
-  out << "element face " << mesh.number_of_faces() << "\nproperty list uchar int vertex_indices\n";
-  for (const auto& a : m.at_faces) out << "property " + internal::ply_type(a.type) + " " + a.name + "\n";
-  if (m.has_labels) out << "property int label\n";
-  if (!m.at_corners.empty()) out << "property list uchar double texcoord\n";
-  out << "end_header\n";
-  for (const Vertex v : mesh.vertices()) {
-    const Point& p = mesh.point(v);
+  internal::write_ply_header(out, m);
+  for (const Vertex v : m.mesh.vertices()) {
+    const Point& p = m.mesh.point(v);
     for (int i = 0; i < 3; ++i) out.binary(p[i]);
     for (int i = 0; normals.exist() && i < 3; ++i) out.binary(normals[v][i]);
     for (const auto& a : m.at_vertices) out.binary(a.map[v], a.type);
   }
-  for (const Face f : mesh.faces()) {
-    out.binary(std::uint8_t(3));
-    for (const Vertex v : mesh.vertices_around_face(mesh.halfedge(f))) out.binary(std::int32_t(v));
-    for (const auto& a : m.at_faces) out.binary(a.map[f], a.type);
-    if (m.has_labels) out.binary(std::int32_t(m.label[f]));
-    if (m.at_corners.empty()) continue;
-    out.binary(std::uint8_t(6));
-    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f)))
-      for (const auto& a : m.at_corners) out.binary(a.map[h]);
-  }
+  for (const Face f : m.mesh.faces()) internal::write_ply_face(out, m, f);
 }
 
 namespace internal {
@@ -258,6 +284,13 @@ private:
   std::vector<std::array<double, 2>> list_;
 };
 
+/// A line of three numbers after a keyword.
+template <class Triple>
+void write_row(Output_buffer& out, const char* keyword, const Triple& x)
+{
+  out << std::string(keyword) + " " << x[0] << " " << x[1] << " " << x[2] << "\n";
+}
+
 /// The lines by which obj files name what follows, as far as it changes.
 inline void write_label(Output_buffer& out, const Label& label, const Label& before)
 {
@@ -270,31 +303,24 @@ inline void write_label(Output_buffer& out, const Label& label, const Label& bef
 
 inline void write_obj(std::ostream& stream, const Constrained_mesh& m)
 {
-  const Mesh& mesh = m.mesh;
   const internal::Output_normals normals(m);
-  internal::Output_buffer out(stream);
-  if (!m.material_library.empty()) out << "mtllib " + m.material_library + "\n";
-  for (const Vertex v : mesh.vertices()) {
-    const Point& p = mesh.point(v);
-    out << "v " << p[0] << " " << p[1] << " " << p[2] << "\n";
-  }
   std::optional<internal::Texture_numbers> texture;
   if (!m.at_corners.empty()) texture.emplace(m);
+  internal::Output_buffer out(stream);
+  if (!m.material_library.empty()) out << "mtllib " + m.material_library + "\n";
+  for (const Vertex v : m.mesh.vertices()) internal::write_row(out, "v", m.mesh.point(v));
   if (texture)
     for (const auto& uv : texture->list()) out << "vt " << uv[0] << " " << uv[1] << "\n";
-  if (normals.exist())
-    for (const Vertex v : mesh.vertices())
-      out << "vn " << normals[v][0] << " " << normals[v][1] << " " << normals[v][2] << "\n";
+  for (const Vertex v : m.mesh.vertices())
+    if (normals.exist()) internal::write_row(out, "vn", normals[v]);
   Label before;
   for (const Face f : internal::faces_by_label(m)) {
-    if (m.has_labels) {
-      const Label label = internal::name_of(m, m.label[f]);
-      internal::write_label(out, label, before);
-      before = label;
-    }
+    const Label label = m.has_labels ? internal::name_of(m, m.label[f]) : before;
+    internal::write_label(out, label, before);
+    before = label;
     out << "f";
-    for (const Halfedge h : mesh.halfedges_around_face(mesh.halfedge(f))) {
-      const std::size_t v = std::size_t(mesh.target(h)) + 1;
+    for (const Halfedge h : m.mesh.halfedges_around_face(m.mesh.halfedge(f))) {
+      const std::size_t v = std::size_t(m.mesh.target(h)) + 1;
       out << " " << v;
       if (texture || normals.exist()) out << "/";
       if (texture) out << (*texture)[h];

@@ -315,8 +315,8 @@ of property maps there, passed or not. The edges between the range and the rest 
 `protect_constraints`. Vertices of the range that are still there keep their descriptors.
 
 \param faces a range of face descriptors of `mesh`
-\param execution, mesh, field, np as for a whole mesh; the statistics of the report are those of the faces of the range and of
-       two rings of faces around them
+\param execution, mesh, field, np as for a whole mesh; lengths relative to a bounding box are those of the faces of the range
+       and of two rings of faces around them
 
 \complexity as for a mesh of these faces, and one pass over the faces of `mesh`
 */

@@ -22,6 +22,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace {
@@ -529,6 +530,20 @@ TEST(Range_of_faces, of_other_models_and_by_single_kernels)
   std::set<std::array<double, 3>> after;
   for (const auto v : vertices(mesh)) after.insert(array(v->point()));
   for (const auto& p : outside) EXPECT_EQ(after.count(p), 1u);
+}
+
+TEST(Chosen_field, is_the_one_that_a_variant_holds)
+{
+  using Chosen = std::variant<SMA::Uniform_metric_field, SMA::Curvature_metric_field>;
+  const auto adapted = [](const auto& field) {
+    Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(2));
+    SMA::adapt_surface_mesh<CGAL::Sequential_tag>(mesh, field);
+    return shapes::soup(mesh);
+  };
+  EXPECT_TRUE(checks::is_identical(adapted(Chosen(SMA::Uniform_metric_field(0.2))),
+                                   adapted(SMA::Uniform_metric_field(0.2))));
+  EXPECT_TRUE(checks::is_identical(adapted(Chosen(SMA::Curvature_metric_field(0.01))),
+                                   adapted(SMA::Curvature_metric_field(0.01))));
 }
 
 } // namespace
