@@ -66,8 +66,8 @@ void keep_fit(double length)
   //! [protect]
   const auto is_interface = mesh.add_property_map<Edge, bool>("e:interface", false).first;
   for (const Edge e : mesh.edges()) is_interface[e] = mesh.is_border(e);
-  SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(length),
-                          SMA::parameters::edge_is_constrained_map(is_interface).protect_constraints(true));
+  const auto border = SMA::parameters::edge_is_constrained_map(is_interface);
+  SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(length), border.protect_constraints(true));
   //! [protect]
   std::cout << std::count_if(mesh.edges().begin(), mesh.edges().end(), [&](Edge e) { return mesh.is_border(e); })
             << " edges of the border, as before\n";
