@@ -476,8 +476,11 @@ TEST(Range_of_faces, knows_where_its_elements_come_from)
   SMA::adapt_surface_mesh<CGAL::Sequential_tag>(selected, mesh, SMA::Uniform_metric_field(0.06),
                                                 params::vertex_origin_map(vertex).face_origin_map(face));
   std::size_t n = 0;
-  for (const Vertex v : mesh.vertices()) // those outside keep what they had
-    if (vertex[v] >= 0) ++n, EXPECT_EQ(Vertex(Mesh::size_type(vertex[v])), v);
+  for (const Vertex v : mesh.vertices()) {
+    if (vertex[v] < 0) continue; // those outside keep what they had
+    ++n;
+    EXPECT_EQ(Vertex(Mesh::size_type(vertex[v])), v);
+  }
   EXPECT_GT(n, 0u);
   for (const Face f : mesh.faces()) {
     if (face[f] == -2) continue;

@@ -20,7 +20,7 @@ namespace Surface_mesh_adaptation {
 constexpr double least_factor_of_tightening = 1.0 / 3;
 
 /// Bounds of what a metric is at points: of the size of isotropic ones; of tensors those of a factor of all sizes, so that
-/// directions stay. Where they contradict each other, the upper ones count.
+/// directions stay. Where they contradict each other, the lower ones count.
 struct Size_limits
 {
   Graded_bounds upper;
@@ -28,7 +28,7 @@ struct Size_limits
 
   bool empty() const { return upper.empty() && negated_lower.empty(); }
 
-  double operator()(const Vector_3& p, double value) const { return upper.least(p, -negated_lower.least(p, -value)); }
+  double operator()(const Vector_3& p, double value) const { return -negated_lower.least(p, -upper.least(p, value)); }
 };
 
 /// What `Size_limits` bound of a metric.

@@ -13,6 +13,7 @@
 #include <CGAL/Surface_mesh_adaptation/fields/expected_size.h>
 #include <CGAL/Surface_mesh_adaptation/fields/tightened_metric.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/alignment.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/protected_sizes.h>
 #include <CGAL/Surface_mesh_adaptation/surface/sector_location.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/metric/metric.h>
@@ -293,17 +294,10 @@ public:
   template <class Execution>
   void follow_protected_edges(const Execution& execution, double gradation)
   {
-    std::vector<Graded_bounds::Source> upper, negated_lower;
-    if (gradation > 1)
-      for (Index v = 0; v < metrics.size(); ++v) {
-        const double ratio = mean_length_of_protected_edges(v);
-        if (ratio == 0) continue;
-        const double value = ratio * limited_value(metrics[v]), growth = slope(metrics[v], gradation);
-        upper.push_back({points[v], value, growth});
-        negated_lower.push_back({points[v], -value, growth});
-      }
-    if (upper.empty()) return;
-    limits_ = {Graded_bounds(execution, std::move(upper)), Graded_bounds(execution, std::move(negated_lower))};
+    if (!(gradation > 1)) return;
+    const Sizes_at_protected_edges sizes(*this, gradation);
+    if (sizes.upper.empty()) return;
+    limits_ = {Graded_bounds(execution, sizes.upper), Graded_bounds(execution, sizes.negated_lower)};
     update_metrics(execution);
   }
 
@@ -353,25 +347,6 @@ private:
       metrics[v] = now;
     });
     return is_changed;
-  }
-
-  /// In the metric, of those at `v`; 0 if there are none, or no others.
-  double mean_length_of_protected_edges(Index v) const
-  {
-    double sum = 0;
-    std::size_t n = 0, others = 0;
-    const auto add = [&](Index h) {
-      if (!mesh.is_protected(h)) return void(++others);
-      sum += length(h);
-      ++n;
-    };
-    Index last = no_index;
-    mesh.for_each_outgoing(v, [&](Index h) {
-      add(h);
-      last = Mesh_view::previous(h);
-    });
-    if (mesh.is_border(last)) add(last);
-    return n > 0 && others > 0 ? sum / double(n) : 0;
   }
 
   /// The point next to the middle of the edge of `h`, found by a walk from its ends or the vertices beside it, first from
