@@ -137,7 +137,7 @@ TEST_F(Content, sizes_by_reference)
     EXPECT_LT(n.at(7), 0.2 * n.at(13)) << options;                               // that opposite to it
   }
   write(path("in.mmgs"), "Parameters\n1\n13 Triangle many\n");
-  expect_failure(1, "in.mesh out.off --size 1 --parameters in.mmgs", "three numbers expected");
+  expect_failure(3, "in.mesh out.off --size 1 --parameters in.mmgs", "three numbers expected");
 }
 
 TEST_F(Content, boundaries_and_marked_edges_if_asked_for)
