@@ -442,7 +442,8 @@ private:
   bool slide(Index v, const Star& star, Attempt<StandsStill>& attempt)
   {
     const Index curve = surface_.locations[v].cell;
-    const auto [w1, w0] = neighbors_on_curve(surface_, v);
+    const std::array<Index, 2> beside = neighbors_on_curve(surface_, v);
+    const Index w1 = beside[0], w0 = beside[1];
     if (w0 == no_index) return false;
     const auto arc0 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[w0]);
     const auto arc1 = surface_.reference().arc(curve, surface_.locations[v], surface_.locations[w1]);
