@@ -7,18 +7,14 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/bbox.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
-#include <CGAL/boost/graph/Euler_operations.h>
 #include <CGAL/boost/graph/IO/polygon_mesh_io.h>
 #include <CGAL/boost/graph/generators.h>
-#include <CGAL/boost/graph/iterator.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -26,9 +22,7 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
-using Vertex = Mesh::Vertex_index;
 using Edge = Mesh::Edge_index;
-using Halfedge = Mesh::Halfedge_index;
 using Face = Mesh::Face_index;
 
 /// The mean length of the edges.
@@ -73,18 +67,21 @@ void keep_fit(double length)
             << " edges of the border, as before\n";
 }
 
-/// A hole is filled, and the filling adapted: the rest of the mesh stays as it is.
-void adapt_filling(Mesh mesh, double length)
+/// Small faces around one vertex: the rest of the mesh stays as it is.
+void adapt_selection(Mesh mesh, double length)
 {
-  const Halfedge border = mesh.halfedge(*mesh.faces().begin());
-  CGAL::Euler::make_hole(border, mesh);
+  const Point center = mesh.point(*mesh.vertices().begin());
+  const double radius = 10 * length;
   //! [selection]
-  std::vector<Face> filling;
-  PMP::triangulate_hole(mesh, border, std::back_inserter(filling));
-  SMA::adapt_surface_mesh(filling, mesh, SMA::Uniform_metric_field(length));
+  std::vector<Face> selection;
+  for (const Face f : mesh.faces()) {
+    const Point corner = mesh.point(mesh.target(mesh.halfedge(f)));
+    if (CGAL::squared_distance(center, corner) < radius * radius) selection.push_back(f);
+  }
+  SMA::adapt_surface_mesh(selection, mesh, SMA::Uniform_metric_field(length));
   //! [selection]
   mesh.collect_garbage();
-  std::cout << mesh.number_of_vertices() << " vertices with the filling\n";
+  std::cout << selection.size() << " faces selected, " << mesh.number_of_vertices() << " vertices now\n";
 }
 
 int main(int argc, char* argv[])
@@ -97,6 +94,6 @@ int main(int argc, char* argv[])
   }
   keep_materials(mesh, mean_length(mesh));
   keep_fit(0.1);
-  adapt_filling(mesh, 0.3 * mean_length(mesh));
+  adapt_selection(mesh, 0.3 * mean_length(mesh));
   return EXIT_SUCCESS;
 }

@@ -302,7 +302,7 @@ TEST(Corner_attributes, keep_both_sides_of_seams)
       uv[h] = uv_of(vector(mesh.point(mesh.target(h))), is_first(f));
   for (const double size : {0.07, 0.4}) {
     Mesh adapted = mesh;
-    auto map = adapted.property_map<Halfedge, Uv>("h:uv").first;
+    auto map = adapted.add_property_map<Halfedge, Uv>("h:uv").first;
     SMA::adapt_surface_mesh<CGAL::Sequential_tag>(
       adapted, SMA::Uniform_metric_field(size),
       params::halfedge_attribute_maps(std::make_tuple(map)));
@@ -382,7 +382,7 @@ TEST(Origins, name_the_vertices_that_are_still_there)
   }
   EXPECT_EQ(n, before.number_of_vertices());
   Mesh again = before;
-  number = again.property_map<Vertex, std::size_t>("v:number").first;
+  number = again.add_property_map<Vertex, std::size_t>("v:number").first;
   SMA::refine<CGAL::Sequential_tag>(again, SMA::Uniform_metric_field(0.2), params::vertex_origin_map(number));
   std::set<std::size_t> numbers;
   for (const Vertex v : again.vertices()) numbers.insert(number[v]);
@@ -419,8 +419,8 @@ struct Outside
 Outside outside(Mesh& mesh, const std::vector<Face>& rest)
 {
   Outside result;
-  const auto value = mesh.property_map<Vertex, int>("v:value").first;
-  const auto value_of_edge = mesh.property_map<Edge, int>("e:value").first;
+  const auto value = mesh.add_property_map<Vertex, int>("v:value").first;
+  const auto value_of_edge = mesh.add_property_map<Edge, int>("e:value").first;
   for (const Face f : rest) {
     const Halfedge h = mesh.halfedge(f);
     result.faces[f] = {mesh.source(h), mesh.target(h), mesh.target(mesh.next(h))};
