@@ -70,13 +70,6 @@ public:
 
   bool is_inside(const Imported_mesh<FaceGraph>&, Index) const { return true; }
 
-  /// Calls `use()`; errors in what is found at a vertex name it by its place in the graph, not by its number here.
-  template <class Use>
-  void with_input_numbers(const Imported_mesh<FaceGraph>& imported, const Use& use) const
-  {
-    internal::with_input_numbers(graph_, imported, use);
-  }
-
   template <class Execution, class Surface, class VertexPointMap, class IsInside>
   void write(const Execution& execution, const Imported_mesh<FaceGraph>&, const Surface& surface,
              const VertexPointMap& points, const IsInside&)
@@ -142,12 +135,6 @@ public:
   bool is_inside(const Imported_mesh<FaceGraph>& imported, Index f) const
   {
     return range_.is_inside(face(imported.halfedges[3 * std::size_t(f)], graph_));
-  }
-
-  template <class Use>
-  void with_input_numbers(const Imported_mesh<FaceGraph>& imported, const Use& use) const
-  {
-    internal::with_input_numbers(graph_, imported, use);
   }
 
   template <class Execution, class Surface, class VertexPointMap, class IsInside>

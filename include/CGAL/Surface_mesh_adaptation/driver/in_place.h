@@ -96,7 +96,7 @@ Adaptation_report adapt_uninterrupted(const Any_execution& execution, Domain& do
   Carried_values<Domain, NamedParameters> values(domain, imported, np);
   const Feature_parameters& features = values.features();
   Given_jets given;
-  domain.with_input_numbers(imported, [&] { given = given_jets(imported, np); });
+  with_input_numbers(domain.graph(), imported, [&] { given = given_jets(imported, np); });
   const Reference_surface<Reconstruction> reference(execution, imported.mesh, imported.points, features, std::move(given));
 
   std::optional<Tolerance> tolerance = tolerance_of(execution, reference, np);
@@ -138,7 +138,7 @@ Adaptation_report adapt_uninterrupted(const Any_execution& execution, Domain& do
     surface.release(execution);
   };
   const Vertex_size_bounds bounds = vertex_size_bounds(domain.graph(), imported, np);
-  domain.with_input_numbers(imported, [&] {
+  with_input_numbers(domain.graph(), imported, [&] {
     with_background_within(execution, field, imported, reference, bounds, adapt);
   });
   const Effect_of_interruption count_all(execution.interruption(), Interruption::Effect::none);
