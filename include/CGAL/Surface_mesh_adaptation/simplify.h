@@ -45,7 +45,7 @@ std::size_t simplify_domain(const Execution& execution, const Domain& domain, co
       Simplification_thresholds thresholds;
       thresholds.min_quality = min_quality_of_approximation;
       Deviation_limits limits = asked; // a tolerance that is missed gets stricter
-      limits.distance = (std::min)(limits.distance, surface.tolerance_of_operations());
+      if (surface.tolerance) limits.distance = (std::min)(limits.distance, surface.tolerance->of_operations());
       return Approximation(policy, surface, thresholds, limits);
     }, sweep);
   } else

@@ -72,8 +72,8 @@ public:
   bool are_within_limits(Index f, double max_distance) const
   {
     return squared_distance(f) <= max_distance * max_distance &&
-           (!surface_.has_tolerance() ||
-            surface_.are_covered(std::array<Index, 1>{f}, std::array<Triangle_points, 1>{corners(f)}));
+           (!surface_.tolerance ||
+            surface_.tolerance->are_covered(std::array<Index, 1>{f}, std::array<Triangle_points, 1>{corners(f)}));
   }
 
   /// The largest distance of a point from its face.

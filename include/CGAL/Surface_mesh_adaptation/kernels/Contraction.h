@@ -21,9 +21,11 @@
 #include <CGAL/Surface_mesh_adaptation/distance/Represented_points.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Simplification.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/alignment.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/border_claims.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/collapse.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/folds.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Merged_star.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/Quadric_3.h>
@@ -219,7 +221,7 @@ private:
     for (const Merged_star::Face& f : star.faces()) {
       const Index v = mesh_.source(f.halfedge), x = mesh_.target(f.halfedge), y = mesh_.apex(f.halfedge);
       quality_limit = (std::min)(quality_limit, surface_.quality(v, x, y));
-      alignment_limit = (std::min)(alignment_limit, surface_.alignment(v, x, y));
+      alignment_limit = (std::min)(alignment_limit, alignment_of_face(surface_, v, x, y));
       length_limit = (std::max)({length_limit, surface_.length(v, x), surface_.length(v, y)});
     }
     for (const Merged_star::Face& f : star.faces()) {
@@ -234,7 +236,8 @@ private:
       if (!(quality > quality_limit && quality > 0) ||
           edge_length(surface_.metrics[d], surface_.metrics[x], to_x) > length_limit ||
           edge_length(surface_.metrics[d], surface_.metrics[y], to_y) > length_limit ||
-          surface_.alignment(n, d, x, y) < alignment_limit || n.dot(surface_.normal(f.halfedge)) < min_turn_of_collapse ||
+          alignment_of_face(surface_, n, d, x, y) < alignment_limit ||
+          n.dot(surface_.normal(f.halfedge)) < min_turn_of_collapse ||
           is_folded(n, Mesh_view::next(f.halfedge)))
         return false;
     }
@@ -243,19 +246,18 @@ private:
 
   bool keeps_tolerance(const Collapse& c, const Merged_star& star) const
   {
-    if (!surface_.has_tolerance()) return true;
+    if (!surface_.tolerance) return true;
     return std::all_of(star.faces().begin(), star.faces().end(), [&](const Merged_star::Face& f) {
-      return f.vanishes || surface_.keeps_tolerance({c.location, c.point}, surface_.corner(mesh_.target(f.halfedge)),
-                                                    surface_.corner(mesh_.apex(f.halfedge)), max_pieces_of_face);
+      return f.vanishes ||
+             surface_.tolerance->is_kept({c.location, c.point}, surface_.corner(mesh_.target(f.halfedge)),
+                                         surface_.corner(mesh_.apex(f.halfedge)), max_pieces_of_face);
     });
   }
 
   /// Whether a face with the normal `n` makes a sharp fold, that was not there, with the face behind the edge of `h`.
   bool is_folded(const Vector_3& n, Index h) const
   {
-    if (mesh_.is_feature(h) || mesh_.is_border(h)) return false;
-    const Vector_3 behind = surface_.normal(mesh_.twin[h]);
-    return n.dot(behind) < (std::min)(min_fold, surface_.normal(h).dot(behind));
+    return fold_across(surface_, h, n) < (std::min)(min_fold, fold_across(surface_, h, surface_.normal(h)));
   }
 
   void apply(const Collapse& c)

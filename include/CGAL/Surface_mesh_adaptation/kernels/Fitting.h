@@ -62,7 +62,7 @@ public:
       if (i > 0) renew();
       step();
     }
-    take_back(places_, [&](Index f) { return is_bad(f, places_) || (surface_.has_tolerance() && !keeps_tolerance(f)); });
+    take_back(places_, [&](Index f) { return is_bad(f, places_) || (surface_.tolerance && !keeps_tolerance(f)); });
     return count_if(execution_, mesh_.number_of_vertices(), [&](std::size_t v) { return surface_.points[v] != places_[v]; });
   }
 
@@ -199,7 +199,7 @@ private:
   bool keeps_tolerance(Index f) const
   {
     const auto [a, b, c] = corners(f);
-    return surface_.keeps_tolerance(surface_.corner(a), surface_.corner(b), surface_.corner(c), max_pieces_of_face);
+    return surface_.tolerance->is_kept(surface_.corner(a), surface_.corner(b), surface_.corner(c), max_pieces_of_face);
   }
 
   std::array<Index, 3> corners(Index f) const

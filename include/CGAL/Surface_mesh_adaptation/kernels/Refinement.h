@@ -16,8 +16,10 @@
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/fields/expected_size.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/alignment.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/edge_middle.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/fill_holes.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/restructure.h>
@@ -180,7 +182,7 @@ private:
     if (mesh_.is_feature(h) || length > max_length_to_keep) return false;
     Mean_misfit before, after;
     before.add(length);
-    const Placed_vertex<Metric> m = surface_.middle(h);
+    const Placed_vertex<Metric> m = edge_middle(surface_, h);
     for (const Index v : {mesh_.source(h), mesh_.target(h), mesh_.apex(h), mesh_.apex(mesh_.twin[h])})
       after.add(edge_length(surface_.metrics[v], m.metric, m.point - surface_.points[v]));
     return !after.is_at_most(1, before);
@@ -213,7 +215,7 @@ private:
           write(plan.vertex(v), surface_.vertex(v), surface_.origin[v],
                 is_at_split(v) ? all_kernels : surface_.active[v]);
         if (plan.is_split(h) && mesh_.is_edge_owner(h) && !is_stopped(execution_))
-          write(plan.midpoint(h), surface_.middle(h), no_index, all_kernels);
+          write(plan.midpoint(h), edge_middle(surface_, h), no_index, all_kernels);
       }
     }, heavy_chunk_length);
   }
@@ -289,16 +291,16 @@ private:
     const auto& pattern = internal::Split_pattern::of(code);
     const Index a = mesh_.corner[3 * f], b = mesh_.corner[3 * f + 1], c = mesh_.corner[3 * f + 2];
     const Vector_3 parent = surface_.normal(a, b, c);
-    const double limit = least_alignment_after(surface_.alignment(parent, a, b, c));
+    const double limit = least_alignment_after(alignment_of_face(surface_, parent, a, b, c));
     Ring<Triangle_points> children;
     for (std::size_t i = 0; i < std::size_t(pattern.number_of_children); ++i) {
       if (!is_child_upright(plan, f, pattern.child[i], parent, limit)) return false;
-      if (!surface_.has_tolerance()) continue;
+      if (!surface_.tolerance) continue;
       if (!child_keeps_tolerance(plan, f, pattern.child[i])) return false;
       const auto point = [&](std::size_t k) { return points_[plan.vertex_of_label(f, pattern.child[i][k])]; };
       children.push_back({point(0), point(1), point(2)});
     }
-    return !surface_.has_tolerance() || surface_.are_covered(std::array{f}, children);
+    return !surface_.tolerance || surface_.tolerance->are_covered(std::array{f}, children);
   }
 
   bool is_child_upright(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels,
@@ -319,9 +321,9 @@ private:
   {
     const auto corner = [&](std::size_t i) {
       const Index v = plan.vertex_of_label(f, labels[i]);
-      return typename Surface::Corner{locations_[v], points_[v]};
+      return Located_corner{locations_[v], points_[v]};
     };
-    return surface_.keeps_tolerance(corner(0), corner(1), corner(2));
+    return surface_.tolerance->is_kept(corner(0), corner(1), corner(2));
   }
 
   double worst_child(const Restructuring& plan, Index f, std::uint8_t code) const
@@ -347,7 +349,7 @@ private:
     surface_.locations.swap(locations_);
     surface_.origin.swap(origin_);
     surface_.active.swap(active_);
-    surface_.hand_to_children(execution_, plan);
+    if (surface_.tolerance) surface_.tolerance->hand_to_children(execution_, plan, surface_);
   }
 
   const Execution& execution_;

@@ -18,6 +18,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Simplification.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/alignment.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/degrees.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
@@ -288,12 +289,12 @@ private:
     Ring<Triangle_points> faces;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Index a = corners[i], b = corners[(i + 1) % corners.size()];
-      if (!surface_.keeps_tolerance({m.location, m.point}, surface_.corner(a), surface_.corner(b))) return false;
+      if (!surface_.tolerance->is_kept({m.location, m.point}, surface_.corner(a), surface_.corner(b))) return false;
       faces.push_back({m.point, surface_.points[a], surface_.points[b]});
     }
     Ring<Index> old_faces{Mesh_view::face(insertion.h), Mesh_view::face(mesh_.twin[insertion.h])};
     for (const Index e : wing_edges(insertion)) old_faces.push_back(Mesh_view::face(mesh_.twin[e]));
-    return surface_.are_covered(old_faces, faces);
+    return surface_.tolerance->are_covered(old_faces, faces);
   }
 
   template <class Claim>
@@ -377,7 +378,7 @@ private:
     const Index h = insertion.h, t = mesh_.twin[h];
     const Ring<Index> corners = hole(insertion);
     const Placed_vertex<Metric> inserted = placed(insertion, corners);
-    if (!are_good(inserted, corners) || (surface_.has_tolerance() && !keeps_tolerance(insertion, inserted, corners))) {
+    if (!are_good(inserted, corners) || (surface_.tolerance && !keeps_tolerance(insertion, inserted, corners))) {
       deactivate(surface_, mesh_.source(h), Activity::regularize);
       return false;
     }
@@ -389,7 +390,7 @@ private:
     surface_.origin[m] = no_index;
     surface_.active[m] = all_kernels;
     for (const Index v : corners) activate(surface_, v);
-    if (surface_.has_tolerance()) surface_.hand_over(surface_.faces_around(m));
+    if (surface_.tolerance) surface_.tolerance->hand_over(surface_, surface_.faces_around(m));
     return true;
   }
 

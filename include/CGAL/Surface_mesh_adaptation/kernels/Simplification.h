@@ -14,10 +14,12 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SIMPLIFICATION_H
 
 #include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/alignment.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/border_claims.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/collapse.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/folds.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
 
 #include <algorithm>
@@ -80,10 +82,10 @@ public:
   {
     const Index s = mesh_.vanishing_vertex(e);
     mesh_.for_each_neighbor(s, [&](Index x) { activate(surface_, x); });
-    if (!surface_.has_tolerance()) return mesh_.collapse(e);
+    if (!surface_.tolerance) return mesh_.collapse(e);
     const Ring<Index> faces = surface_.faces_around(s);
     mesh_.collapse(e);
-    surface_.hand_over(faces);
+    surface_.tolerance->hand_over(surface_, faces);
   }
 
 private:
@@ -166,7 +168,7 @@ private:
       const Vector_3 n = surface_.normal(s, x, y);
       star.faces.push_back({x, y, n});
       star.quality = (std::min)(star.quality, surface_.quality(s, x, y));
-      star.alignment = (std::min)(star.alignment, surface_.alignment(n, s, x, y));
+      star.alignment = (std::min)(star.alignment, alignment_of_face(surface_, n, s, x, y));
       star.length = (std::max)({star.length, surface_.length(s, x), is_open ? surface_.length(s, y) : 0});
     });
     return star;
@@ -194,24 +196,25 @@ private:
       if (f.x == d || f.y == d) continue;
       const double new_quality = surface_.quality(d, f.x, f.y);
       const Vector_3 n = surface_.normal(d, f.x, f.y);
-      is_flat = is_flat && surface_.is_flat(n, d, f.x, f.y);
+      is_flat = is_flat && is_flat_face(surface_, n, d, f.x, f.y);
       if (!(new_quality > quality_limit && new_quality > 0 && is_fit(f.x) && is_fit(f.y) &&
             is_upright(f, n, s, d, alignment_limit)))
         return false;
     }
     return !(is_long && is_fit_worse(e)) && mesh_.is_collapsible(e) &&
            (is_flat || is_unfolded(surface_, s, surface_.points[d], is_seen, is_put_off)) &&
-           (!surface_.has_tolerance() || keeps_tolerance(s, d));
+           (!surface_.tolerance || keeps_tolerance(s, d));
   }
 
   /// Whether the face with the normal `n` that replaces `f` when `s` vanishes in `d` turns far neither from `f`, unless
   /// both are thin, nor from the surface at its corners and at `s`.
   bool is_upright(const typename Star::Face& f, const Vector_3& n, Index s, Index d, double limit) const
   {
-    if (surface_.alignment(n, d, f.x, f.y) < limit) return false;
+    if (alignment_of_face(surface_, n, d, f.x, f.y) < limit) return false;
     const double at_s = surface_.vertex_class(s) == Vertex_class::smooth ? n.dot(surface_.normals[s]) : 1;
     if (n.dot(f.normal) >= min_turn_of_collapse && at_s >= limit) return true;
-    return surface_.is_thin(d, f.x, f.y) && surface_.is_thin(s, f.x, f.y) && alignment_of_thin_face(at_s) >= limit;
+    return is_thin_face(surface_, d, f.x, f.y) && is_thin_face(surface_, s, f.x, f.y) &&
+           alignment_of_thin_face(at_s) >= limit;
   }
 
   /// Whether the edges that a collapse creates fit the metric less than those that it removes.
@@ -236,11 +239,12 @@ private:
       old_faces.push_back(Mesh_view::face(h));
       if (x != d && y != d) faces.push_back({surface_.points[d], surface_.points[x], surface_.points[y]});
     });
-    if (!surface_.are_covered(old_faces, faces)) return false; // this first: the other direction takes longer
+    if (!surface_.tolerance->are_covered(old_faces, faces)) return false; // this first: the other direction takes longer
     bool is_kept = true;
     mesh_.for_each_outgoing_while(s, [&](Index h) {
       const Index x = mesh_.target(h), y = mesh_.apex(h);
-      is_kept = x == d || y == d || surface_.keeps_tolerance(surface_.corner(d), surface_.corner(x), surface_.corner(y));
+      is_kept = x == d || y == d ||
+                surface_.tolerance->is_kept(surface_.corner(d), surface_.corner(x), surface_.corner(y));
       return is_kept;
     });
     return is_kept;

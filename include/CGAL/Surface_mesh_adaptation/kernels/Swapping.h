@@ -10,8 +10,10 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SWAPPING_H
 
 #include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/alignment.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/degrees.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/folds.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
@@ -88,7 +90,7 @@ public:
       touched_[v] = 1;
     const std::array<Index, 2> faces{Mesh_view::face(h), Mesh_view::face(mesh_.twin[h])};
     mesh_.flip(h);
-    if (surface_.has_tolerance()) surface_.hand_over(faces);
+    if (surface_.tolerance) surface_.tolerance->hand_over(surface_, faces);
   }
 
 private:
@@ -195,23 +197,23 @@ private:
     if (surface_.length(a, b) > (std::max)(thresholds_.max_length, surface_.length(p, q))) return false;
     const Vector_3 old1 = surface_.normal(p, q, b), old2 = surface_.normal(q, p, a);
     const Vector_3 new1 = surface_.normal(a, b, p), new2 = surface_.normal(b, a, q);
-    const double limit =
-      least_alignment_after((std::min)(surface_.alignment(old1, p, q, b), surface_.alignment(old2, q, p, a)));
-    if (surface_.alignment(new1, a, b, p) < limit || surface_.alignment(new2, b, a, q) < limit) return false;
+    const double limit = least_alignment_after((std::min)(alignment_of_face(surface_, old1, p, q, b),
+                                                          alignment_of_face(surface_, old2, q, p, a)));
+    if (alignment_of_face(surface_, new1, a, b, p) < limit || alignment_of_face(surface_, new2, b, a, q) < limit)
+      return false;
     const double turn = (std::min)(min_turn, old1.dot(old2));
-    const bool is_thin = surface_.is_thin(p, q, b) && surface_.is_thin(q, p, a) && surface_.is_thin(a, b, p) &&
-                         surface_.is_thin(b, a, q);
+    const bool is_thin = is_thin_face(surface_, p, q, b) && is_thin_face(surface_, q, p, a) &&
+                         is_thin_face(surface_, a, b, p) && is_thin_face(surface_, b, a, q);
     if (!is_thin &&
         (std::min)({new1.dot(old1), new1.dot(old2), new2.dot(old1), new2.dot(old2), new1.dot(new2)}) < turn)
       return false;
-    if (surface_.has_tolerance() && !keeps_tolerance(h)) return false;
-    if (is_thin || (surface_.is_flat(new1, a, b, p) && surface_.is_flat(new2, b, a, q))) return true;
+    if (surface_.tolerance && !keeps_tolerance(h)) return false;
+    if (is_thin || (is_flat_face(surface_, new1, a, b, p) && is_flat_face(surface_, new2, b, a, q))) return true;
     // faces (p, q, b) and (q, p, a) with outer edges hn hp and tn tp become (a, b, p) and (b, a, q) with hp tn and tp hn
     const Index hn = Mesh_view::next(h), hp = Mesh_view::previous(h), tn = Mesh_view::next(t), tp = Mesh_view::previous(t);
-    const double fold = (std::min)({fold_across(hn, new2), fold_across(hp, new1), fold_across(tn, new1),
-                                    fold_across(tp, new2)});
-    return fold >= (std::min)({min_fold, fold_across(hn, old1), fold_across(hp, old1), fold_across(tn, old2),
-                               fold_across(tp, old2)});
+    const auto fold = [&](Index e, const Vector_3& n) { return fold_across(surface_, e, n); };
+    return (std::min)({fold(hn, new2), fold(hp, new1), fold(tn, new1), fold(tp, new2)}) >=
+           (std::min)({min_fold, fold(hn, old1), fold(hp, old1), fold(tn, old2), fold(tp, old2)});
   }
 
   bool keeps_tolerance(Index h) const
@@ -221,15 +223,10 @@ private:
     const auto& points = surface_.points;
     const std::array<Triangle_points, 2> faces{{{points[a], points[b], points[p]}, {points[b], points[a], points[q]}}};
     const auto is_kept = [&](Index v) {
-      return surface_.keeps_tolerance(surface_.corner(a), surface_.corner(b), surface_.corner(v));
+      return surface_.tolerance->is_kept(surface_.corner(a), surface_.corner(b), surface_.corner(v));
     };
-    return surface_.are_covered(std::array{Mesh_view::face(h), Mesh_view::face(t)}, faces) && is_kept(p) && is_kept(q);
-  }
-
-  /// Cosine between a face with normal `n` on the side of `h` and the face behind `h`; 1 across features.
-  double fold_across(Index h, const Vector_3& n) const
-  {
-    return mesh_.is_feature(h) ? 1 : n.dot(surface_.normal(mesh_.twin[h]));
+    return surface_.tolerance->are_covered(std::array{Mesh_view::face(h), Mesh_view::face(t)}, faces) && is_kept(p) &&
+           is_kept(q);
   }
 
   const Execution& execution_;

@@ -5,7 +5,9 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_ALIGNMENT_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_ALIGNMENT_H
 
+#include <CGAL/Surface_mesh_adaptation/metric/metric.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Features.h>
 
 #include <algorithm>
 #include <array>
@@ -68,6 +70,55 @@ inline double alignment_of_thin_face(double cosine)
 /// Cosine between a face and the surface normals at its corners from which on none of its edges can be a fold:
 /// 30 degrees, for a face that is not flat may deviate by the other 60.
 constexpr double flat_alignment = 0.87;
+
+/// Whether the face `abc` would be thin with `a` at `p`, and may stand on the surface, which curves and isotropic
+/// metrics do not ask for. Where it is turned by less than 90 degrees from the normals at smooth corners, nothing is
+/// folded around these.
+template <class Surface>
+bool is_thin_face(const Surface& surface, const Vector_3& p, Index a, Index b, Index c)
+{
+  if constexpr (is_anisotropic<typename Surface::Metric>) {
+    for (const Index v : {a, b, c})
+      if (surface.vertex_class(v) != Vertex_class::smooth) return false;
+    const Vector_3 e1 = surface.points[b] - p, e2 = surface.points[c] - p;
+    return is_thin(e1, e2, e1.cross(e2));
+  }
+  return false;
+}
+
+template <class Surface>
+bool is_thin_face(const Surface& surface, Index a, Index b, Index c)
+{
+  return is_thin_face(surface, surface.points[a], a, b, c);
+}
+
+/// Smallest cosine between the normal of the face and the surface normals of its corners; 1 if none of them has one.
+/// Thin faces count as in `alignment_of_thin_face()`.
+template <class Surface>
+double alignment_of_face(const Surface& surface, const Vector_3& unit_normal, Index a, Index b, Index c)
+{
+  double least = 1;
+  for (Index v : {a, b, c})
+    if (surface.vertex_class(v) == Vertex_class::smooth)
+      least = (std::min)(least, unit_normal.dot(surface.normals[v]));
+  return least < min_alignment && is_thin_face(surface, a, b, c) ? alignment_of_thin_face(least) : least;
+}
+
+template <class Surface>
+double alignment_of_face(const Surface& surface, Index a, Index b, Index c)
+{
+  return alignment_of_face(surface, surface.normal(a, b, c), a, b, c);
+}
+
+/// Whether the face is so near to the surface at all corners that it cannot be part of a fold.
+template <class Surface>
+bool is_flat_face(const Surface& surface, const Vector_3& unit_normal, Index a, Index b, Index c)
+{
+  for (Index v : {a, b, c})
+    if (surface.vertex_class(v) != Vertex_class::smooth || unit_normal.dot(surface.normals[v]) < flat_alignment)
+      return false;
+  return true;
+}
 
 } // namespace Surface_mesh_adaptation
 } // namespace CGAL

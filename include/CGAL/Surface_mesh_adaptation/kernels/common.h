@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What the kernels share: which vertices have something left to examine, and how far faces may turn.
+// What the kernels share: which vertices have something left to examine, and where that ends.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_COMMON_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_COMMON_H
@@ -18,23 +18,6 @@ namespace Surface_mesh_adaptation {
 
 /// A bit for each kernel in `Adapted_surface::active`: whether it has to look at the vertex again.
 enum class Activity : std::uint8_t { simplify = 1, swap = 2, relocate = 4, regularize = 8 };
-
-/// Least cosine between two faces at a smooth edge that an operation may create, unless it mends a sharper one.
-constexpr double min_fold = 0.0;
-
-/// Whether moving `v` to `p`, or collapsing it with the vertex there, folds no two faces more than is the case. That
-/// takes a look at the faces behind those around `v`: where `is_seen(w)` denies one of their vertices `w`, which
-/// another task may be changing, `is_put_off` is set and the answer is no.
-template <class Surface, class IsSeen>
-bool is_unfolded(const Surface& surface, Index v, const Vector_3& p, const IsSeen& is_seen, bool& is_put_off)
-{
-  surface.mesh.for_each_outgoing(v, [&](Index h) {
-    const Index behind = surface.mesh.twin[Mesh_view::next(h)];
-    if (behind != no_index && !is_seen(surface.mesh.apex(behind))) is_put_off = true;
-  });
-  return !is_put_off &&
-         surface.sharpest_fold(v, p) >= (std::min)(min_fold, surface.sharpest_fold(v, surface.points[v]));
-}
 
 /// Passes of claims at the borders of blocks; what is left then is examined by the next sweep.
 constexpr std::uint32_t max_border_rounds = 8;

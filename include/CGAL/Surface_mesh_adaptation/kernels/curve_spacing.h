@@ -21,6 +21,9 @@ namespace Surface_mesh_adaptation {
 constexpr double min_curve_length = 0.5;
 constexpr double max_curve_length = 2.0;
 
+/// The same up to which the faces beside may pull at its vertices: longer chords cut.
+constexpr double balanced_length = 1.25;
+
 /// Edges on each side of the one in question that decide with it: the mean length comes within 8 % of 1.
 constexpr int curve_reach = 3;
 

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// The tolerance, a largest distance between the input and the adapted mesh, and how operations keep it: no face that
+// they create leaves the input farther, and what the faces that they replace cover of the input stays covered.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_TOLERANCE_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_TOLERANCE_H
+
+#include <CGAL/Surface_mesh_adaptation/distance/Covered_points.h>
+#include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Reference_surface.h>
+
+#include <cstddef>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// How far the adapted mesh may be from the input, and the faces of that.
+struct Tolerance
+{
+  double distance;      ///< that is asked for
+  double of_operations; ///< that each operation keeps: less, for operations add up
+  Triangle_tree input;
+};
+
+/// Pieces of a face of which the distance from the input is bounded where it may stand for hundreds of others.
+constexpr std::size_t max_pieces_of_face = 1024;
+
+/// A corner of a face that may come to be.
+struct Located_corner
+{
+  const Location& location;
+  const Vector_3& point;
+};
+
+/// Keeps a tolerance while a copy of the mesh of `Reference` is adapted.
+template <class Reference>
+class Tolerance_guard
+{
+public:
+  /// Both must live as long as the guard.
+  template <class Execution>
+  Tolerance_guard(const Execution& execution, const Reference& reference, const Tolerance& tolerance)
+    : reference_(&reference), tolerance_(&tolerance), covered_(execution, reference.mesh, reference.points)
+  {}
+
+  double of_operations() const { return tolerance_->of_operations; }
+
+  /// The point `p` of the surface at `l`, drawn towards the point of the input that it lies above where the patch
+  /// bulges by much of the tolerance.
+  Vector_3 near_input(const Location& l, const Vector_3& p) const
+  {
+    const Vector_3 flat = reference_->flat_point(l), bulge = p - flat;
+    const double length = bulge.norm(), largest = share_of_bulge * of_operations();
+    return length > largest ? flat + largest / length * bulge : p;
+  }
+
+  /// Whether a face with these corners stays within the tolerance of the input. `false` may be wrong, the less often
+  /// the more pieces of the face are looked at.
+  bool is_kept(const Located_corner& a, const Located_corner& b, const Located_corner& c,
+               std::size_t max_pieces = 64) const
+  {
+    Ring<std::size_t> guesses;
+    for (const Located_corner* corner : {&a, &b, &c}) {
+      const Location& l = corner->location;
+      const auto at_vertex = [&] { return reference_->mesh.outgoing[reference_->interpolation(l).vertices[0]]; };
+      const Index face = l.kind == Vertex_class::smooth ? l.cell : Mesh_view::face(at_vertex());
+      guesses.push_back(tolerance_->input.place(face));
+    }
+    return is_within(tolerance_->input, {a.point, b.point, c.point}, of_operations(), guesses, max_pieces);
+  }
+
+  /// Whether the points of the input that `faces` cover stay within the tolerance of `triangles`, which are to replace
+  /// these. Nothing is said of what lies between, which is why the distance is measured in the end.
+  template <class Faces, class Triangles>
+  bool are_covered(const Faces& faces, const Triangles& triangles) const
+  {
+    return covered_.are_near(faces, triangles, of_operations());
+  }
+
+  /// Hands what `faces` of the adapted mesh cover on to those of them that are left.
+  template <class Surface, class Faces>
+  void hand_over(const Surface& surface, const Faces& faces)
+  {
+    covered_.hand_over(surface.mesh, surface.points, faces);
+  }
+
+  /// Hands what all faces cover on to their children, after `plan` was carried out.
+  template <class Execution, class Surface>
+  void hand_to_children(const Execution& execution, const Restructuring& plan, const Surface& surface)
+  {
+    covered_.hand_to_children(execution, plan, surface.mesh, surface.points);
+  }
+
+private:
+  static constexpr double share_of_bulge = 0.25; // of the tolerance: the rest is for the faces between the points
+
+  const Reference* reference_;
+  const Tolerance* tolerance_;
+  Covered_points covered_;
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_TOLERANCE_H
