@@ -43,6 +43,15 @@ struct Kernel_report
   double seconds = 0;  ///< time that it took
 };
 
+/// Pairs of faces that intersect, as `self_intersections` of Polygon Mesh Processing counts them.
+struct Self_intersection_counts
+{
+  bool are_counted = false;  ///< only on request: else the numbers are 0
+  std::size_t before = 0;    ///< of the input
+  std::size_t after = 0;     ///< of the output
+  double seconds = 0;        ///< time that counting took
+};
+
 /// What `adapt_surface_mesh` returns.
 struct Adaptation_report
 {
@@ -62,6 +71,7 @@ struct Adaptation_report
                                    ///< at most
   double deviation = 0;            ///< with the tolerance of a `Curvature_metric_field`: largest distance from the surface
                                    ///< at some places of each face, and of a vertex of the input from the faces
+  Self_intersection_counts self_intersections; ///< of the input and the output
   double seconds = 0;  ///< time of the whole run
 
   /// Writes the report as one JSON object.
@@ -128,6 +138,9 @@ inline void Adaptation_report::write_json(std::ostream& out) const
   if (tolerance > 0)
     out << ",\n  \"tolerance\": " << tolerance << ", \"certified_distance\": " << certified_distance;
   if (deviation > 0) out << ",\n  \"deviation\": " << deviation;
+  if (self_intersections.are_counted)
+    out << ",\n  \"self_intersections\": {\"before\": " << self_intersections.before
+        << ", \"after\": " << self_intersections.after << ", \"seconds\": " << self_intersections.seconds << '}';
   const auto sentence = [&](const std::string& s) { internal::write_json(out, s); };
   out << ",\n  \"repairs\": ";
   internal::write_json_list(out, repairs, sentence);

@@ -165,6 +165,22 @@ private:
   double distance_, tolerance_;
 };
 
+/// Faces that meet where those of the input do not could not be avoided.
+class Self_intersection_error : public Adaptation_error
+{
+public:
+  /// The number of pairs of such faces.
+  explicit Self_intersection_error(std::size_t pairs)
+    : Adaptation_error("the adapted mesh has " + std::to_string(pairs) +
+                       " pairs of faces that intersect where those of the input do not"), pairs_(pairs)
+  {}
+
+  std::size_t pairs() const { return pairs_; }  ///< that intersect
+
+private:
+  std::size_t pairs_;
+};
+
 /// A file that cannot be read or written; `line()` is the offending line, from 1, or 0 if there is none.
 class Io_error : public Adaptation_error
 {

@@ -36,6 +36,8 @@ enum vertex_attribute_maps_t { vertex_attribute_maps };
 enum maximum_normal_deviation_t { maximum_normal_deviation };
 enum maximum_distance_t { maximum_distance };
 enum tolerance_t { tolerance };
+enum avoid_self_intersections_t { avoid_self_intersections };
+enum count_self_intersections_t { count_self_intersections };
 enum maximum_number_of_vertices_t { maximum_number_of_vertices };
 
 } // namespace internal_np

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -77,6 +78,18 @@ private:
   std::array<Vector_3, 3> inwards_; // in the plane, orthogonal to the edges
 };
 
+/// Where the line through `p` with the unit direction `d` meets the triangle, from `p`; infinite if nowhere. Lines between
+/// two triangles meet one of them.
+inline double distance_along_line(const Vector_3& p, const Vector_3& d, const Triangle_points& t)
+{
+  constexpr double rounding = 1e-9, none = std::numeric_limits<double>::infinity();
+  const Vector_3 e = t[1] - t[0], f = t[2] - t[0], df = d.cross(f), x = p - t[0], xe = x.cross(e);
+  const double determinant = e.dot(df);
+  if (determinant == 0) return none;
+  const double u = x.dot(df) / determinant, v = d.dot(xe) / determinant;
+  return u >= -rounding && v >= -rounding && u + v <= 1 + rounding ? f.dot(xe) / determinant : none;
+}
+
 } // namespace internal
 
 /// Squared distance from `p` to a triangle, which may be degenerate.
@@ -98,30 +111,48 @@ public:
       return !mesh.is_removed_face(Index(f));
     });
     std::vector<Triangle_points> unsorted(faces.size());
-    std::vector<Vector_3> centers(faces.size());
     for_each_index(execution, faces.size(), [&](std::size_t i) {
       for (std::size_t k = 0; k < 3; ++k) unsorted[i][k] = points[mesh.corner[3 * std::size_t(faces[i]) + k]];
-      centers[i] = (unsorted[i][0] + unsorted[i][1] + unsorted[i][2]) / 3;
     });
-    const std::vector<Index> order = internal::hilbert_order(execution, centers);
-    triangles_.resize(order.size());
+    const std::vector<Index> order = sort(execution, unsorted);
+    face_.resize(order.size());
     place_.resize(mesh.number_of_faces());
     for_each_index(execution, order.size(), [&](std::size_t i) {
-      triangles_[i] = unsorted[order[i]];
-      place_[faces[order[i]]] = i;
+      face_[i] = faces[order[i]];
+      place_[face_[i]] = i;
     });
     beyond_.resize(order.size());
     for_each_index(execution, order.size(), [&](std::size_t i) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const Index t = mesh.twin[3 * std::size_t(faces[order[i]]) + k];
+        const Index t = mesh.twin[3 * std::size_t(face_[i]) + k];
         beyond_[i][k] = t == no_index ? i : place_[Mesh_view::face(t)];
       }
     });
     build(execution);
   }
 
+  /// Of triangles that are no faces of a mesh, with nothing beyond their edges. \pre there is one
+  template <class Execution>
+  Triangle_tree(const Execution& execution, const std::vector<Triangle_points>& triangles)
+  {
+    face_ = sort(execution, triangles);
+    place_.resize(face_.size());
+    beyond_.resize(face_.size());
+    for_each_index(execution, face_.size(), [&](std::size_t i) {
+      place_[face_[i]] = i;
+      beyond_[i] = {i, i, i};
+    });
+    build(execution);
+  }
+
   /// The place in the tree of a face of the mesh.
   std::size_t place(Index face) const { return place_[face]; }
+
+  /// The face of the mesh at place `i`.
+  Index face(std::size_t i) const { return face_[i]; }
+
+  /// The places of the triangles across the edges of the one at place `i`; its own at the boundary.
+  const std::array<std::size_t, 3>& beyond(std::size_t i) const { return beyond_[i]; }
 
   std::size_t size() const { return triangles_.size(); }  ///< number of triangles
   const Triangle_points& operator[](std::size_t i) const { return triangles_[i]; }  ///< the one at place `i`
@@ -173,6 +204,68 @@ public:
     return i;
   }
 
+  /// What a ray meets.
+  struct Hit
+  {
+    double distance = std::numeric_limits<double>::infinity();  ///< from its start; infinite: nothing
+    std::size_t triangle = 0;  ///< its place in the tree
+  };
+
+  /// The first triangles, of those that are not `is_ignored(i)`, that the line through `p` with the unit direction `d`
+  /// meets within `reach` of `p`, on the side of `d` and on the other one. Near O(log n).
+  template <class IsIgnored>
+  std::array<Hit, 2> first_hits(const Vector_3& p, const Vector_3& d, double reach, const IsIgnored& is_ignored) const
+  {
+    std::array<Hit, 2> best;
+    best[0].distance = best[1].distance = reach;
+    const Vector_3 inverse = d.cwiseInverse();
+    boost::container::static_vector<std::pair<std::size_t, std::size_t>, 64> stack{{levels_.size() - 1, 0}};
+    while (!stack.empty()) {
+      const auto [level, index] = stack.back();
+      stack.pop_back();
+      if (!levels_[level][index].is_met(p, inverse, -best[1].distance, best[0].distance)) continue;
+      if (level == 0) visit_leaf(index, p, d, is_ignored, best);
+      else push_children(level, index, stack);
+    }
+    for (Hit& hit : best)
+      if (hit.distance == reach) hit = Hit();
+    return best;
+  }
+
+  /// Calls `f(i, j)` for the places `i <= j` of triangles, with `i` in the leaf `leaf`, whose bounding boxes meet.
+  template <class F>
+  void for_each_pair_of_boxes(std::size_t leaf, const F& f) const
+  {
+    const Box& box = levels_[0][leaf];
+    boost::container::static_vector<std::pair<std::size_t, std::size_t>, 64> stack{{levels_.size() - 1, 0}};
+    while (!stack.empty()) {
+      const auto [level, index] = stack.back();
+      stack.pop_back();
+      if (((index + 1) << level) <= leaf || !levels_[level][index].meets(box)) continue;
+      if (level == 0) visit_pairs(leaf, index, f);
+      else push_children(level, index, stack);
+    }
+  }
+
+  /// Calls `f(i)` for the places of triangles whose bounding boxes meet that of `t`.
+  template <class F>
+  void for_each_box_at(const Triangle_points& t, const F& f) const
+  {
+    const Box box = box_of(t);
+    boost::container::static_vector<std::pair<std::size_t, std::size_t>, 64> stack{{levels_.size() - 1, 0}};
+    while (!stack.empty()) {
+      const auto [level, index] = stack.back();
+      stack.pop_back();
+      if (!levels_[level][index].meets(box)) continue;
+      if (level > 0) push_children(level, index, stack);
+      else
+        for (std::size_t i = leaf_size * index; i < end_of_leaf(index); ++i)
+          if (box.meets(box_of(triangles_[i]))) f(i);
+    }
+  }
+
+  std::size_t number_of_leaves() const { return levels_[0].size(); }
+
 private:
   struct Box
   {
@@ -182,7 +275,29 @@ private:
     {
       return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
     }
+
+    /// Whether the line through `p` in a direction, of which the coordinates have these inverses, comes there between
+    /// the distances `begin` and `end` from `p`.
+    bool is_met(const Vector_3& p, const Vector_3& inverse, double begin, double end) const
+    {
+      for (int k = 0; k < 3; ++k) {
+        const double a = (low[k] - p[k]) * inverse[k], b = (high[k] - p[k]) * inverse[k];
+        begin = (std::max)(begin, (std::min)(a, b)); // in this order a NaN, of 0 times infinity, does not count
+        end = (std::min)(end, (std::max)(a, b));
+      }
+      return begin <= end;
+    }
+
+    bool meets(const Box& other) const
+    {
+      return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+    }
   };
+
+  static Box box_of(const Triangle_points& t)
+  {
+    return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
+  }
 
   struct Entry
   {
@@ -192,22 +307,38 @@ private:
 
   static constexpr std::size_t leaf_size = 4;
 
+  static Box hull(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)}; }
+
+  std::size_t end_of_leaf(std::size_t leaf) const { return (std::min)(leaf_size * (leaf + 1), size()); }
+
+  /// Takes over the triangles in order along a Hilbert curve; returns which of them comes where.
+  template <class Execution>
+  std::vector<Index> sort(const Execution& execution, const std::vector<Triangle_points>& unsorted)
+  {
+    std::vector<Vector_3> centers(unsorted.size());
+    for_each_index(execution, centers.size(), [&](std::size_t i) {
+      centers[i] = (unsorted[i][0] + unsorted[i][1] + unsorted[i][2]) / 3;
+    });
+    std::vector<Index> order = internal::hilbert_order(execution, centers);
+    triangles_.resize(order.size());
+    for_each_index(execution, order.size(), [&](std::size_t i) { triangles_[i] = unsorted[order[i]]; });
+    return order;
+  }
+
   template <class Execution>
   void build(const Execution& execution)
   {
     levels_.emplace_back((size() + leaf_size - 1) / leaf_size);
     for_each_index(execution, levels_[0].size(), [&](std::size_t i) {
-      Box box{triangles_[leaf_size * i][0], triangles_[leaf_size * i][0]};
-      for (std::size_t j = leaf_size * i; j < (std::min)(leaf_size * (i + 1), size()); ++j)
-        for (const Vector_3& p : triangles_[j]) box = {box.low.cwiseMin(p), box.high.cwiseMax(p)};
+      Box box = box_of(triangles_[leaf_size * i]);
+      for (std::size_t j = leaf_size * i + 1; j < end_of_leaf(i); ++j) box = hull(box, box_of(triangles_[j]));
       levels_[0][i] = box;
     });
     while (levels_.back().size() > 1) {
       const std::vector<Box>& below = levels_.back();
       std::vector<Box> level((below.size() + 1) / 2);
       for_each_index(execution, level.size(), [&](std::size_t i) {
-        const Box &a = below[2 * i], &b = below[(std::min)(2 * i + 1, below.size() - 1)];
-        level[i] = {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
+        level[i] = hull(below[2 * i], below[(std::min)(2 * i + 1, below.size() - 1)]);
       });
       levels_.push_back(std::move(level));
     }
@@ -232,9 +363,38 @@ private:
 
   void visit_leaf(std::size_t leaf, const Vector_3& p, Nearest& best) const
   {
-    for (std::size_t i = leaf_size * leaf; i < (std::min)(leaf_size * (leaf + 1), size()); ++i) {
+    for (std::size_t i = leaf_size * leaf; i < end_of_leaf(leaf); ++i) {
       const double d = squared_distance_to_triangle(p, triangles_[i]);
       if (d < best.squared_distance) best = {d, i};
+    }
+  }
+
+  template <class IsIgnored>
+  void visit_leaf(std::size_t leaf, const Vector_3& p, const Vector_3& d, const IsIgnored& is_ignored,
+                  std::array<Hit, 2>& best) const
+  {
+    for (std::size_t i = leaf_size * leaf; i < end_of_leaf(leaf); ++i) {
+      const double along = internal::distance_along_line(p, d, triangles_[i]), distance = std::abs(along);
+      Hit& hit = best[along < 0];
+      if (distance < hit.distance && !is_ignored(i)) hit = {distance, i};
+    }
+  }
+
+  template <class Stack>
+  void push_children(std::size_t level, std::size_t index, Stack& stack) const
+  {
+    for (const std::size_t child : {2 * index + 1, 2 * index})
+      if (child < levels_[level - 1].size()) stack.push_back({level - 1, child});
+  }
+
+  /// Calls `f(i, j)` for the places `i <= j` in two leaves whose boxes meet.
+  template <class F>
+  void visit_pairs(std::size_t first, std::size_t second, const F& f) const
+  {
+    for (std::size_t i = leaf_size * first; i < end_of_leaf(first); ++i) {
+      const Box box = box_of(triangles_[i]);
+      for (std::size_t j = (std::max)(leaf_size * second, i); j < end_of_leaf(second); ++j)
+        if (box.meets(box_of(triangles_[j]))) f(i, j);
     }
   }
 
@@ -253,6 +413,7 @@ private:
   }
 
   std::vector<Triangle_points> triangles_;
+  std::vector<Index> face_;               ///< of each triangle
   std::vector<std::size_t> place_;        ///< of each face
   std::vector<std::array<std::size_t, 3>> beyond_; ///< the triangle across each edge; itself at the boundary
   std::vector<std::vector<Box>> levels_;  ///< from the leaves to the root

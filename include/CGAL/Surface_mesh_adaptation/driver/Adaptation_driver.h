@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_adaptation/distance/Face_deviations.h>
 #include <CGAL/Surface_mesh_adaptation/distance/Sampled_points.h>
 #include <CGAL/Surface_mesh_adaptation/driver/mesh_statistics.h>
+#include <CGAL/Surface_mesh_adaptation/fields/gradation.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Fitting.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Refinement.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Regularization.h>
@@ -62,6 +63,7 @@ public:
     if (aims.number_of_vertices > 0) meet_number(aims.number_of_vertices);
     refinement_.compact();
     if (aims.deviation > 0 && rounds > 0) meet_deviation(aims.deviation);
+    if (surface_.intersections != nullptr && rounds > 0) part_faces();
     if constexpr (!std::is_same_v<IsFitted, std::false_type>)
       if (is_fitted) {
         fit(shape_weight);
@@ -168,11 +170,35 @@ private:
     if (left <= 0) return false;
     const double bound =
       (std::max)(deviations.allowed(), deviations.nth_largest(std::size_t(left / vertices_of_correction)));
-    work_where(surface_.tighten_metric(execution_, size_factors(deviations, bound)));
+    work_where(surface_.tighten_metric(execution_, size_factors(deviations, bound), limits_of_deviation()));
     if (extent_ == 0) return false;
     do_rounds(1, current());
     refinement_.compact();
     return true;
+  }
+
+  /// Where faces meet and those of the input do not: lets the surface bulge by less than the gap between them, tightens the
+  /// metric, and adapts the mesh to that there. With finer faces it comes nearer to the input, which does not meet itself.
+  void part_faces()
+  {
+    internal::Self_intersection_guard& guard = *surface_.intersections;
+    for (int i = 0; i < max_corrections_of_intersections && !report_.stopped; ++i) {
+      const std::vector<Face_pair> pairs = guard.new_pairs(execution_, surface_);
+      if (pairs.empty()) break;
+      guard.find_gaps(execution_, surface_);
+      if (i == 0) surface_.bound_distance(execution_, guard.bounds_at_vertices(execution_));
+      work_where(surface_.tighten_metric(execution_, guard.size_factors(surface_, pairs), limits_at_gaps));
+      if (extent_ == 0) break;
+      do_rounds(rounds_of_correction, current());
+      refinement_.compact();
+    }
+    extent_ = 0;
+  }
+
+  Limits_of_tightening limits_of_deviation() const
+  {
+    const Metric_aims& aims = surface_.background().aims();
+    return {least_factor_of_deviation, aims.hmin, aims.gradation};
   }
 
   void restore(const Surface& surface, double deviation)
@@ -383,6 +409,9 @@ private:
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
   static constexpr int max_corrections_of_deviation = 4;
+  static constexpr int max_corrections_of_intersections = 6;
+  static constexpr double least_factor_of_deviation = 1.0 / 3; // where a third is not enough, sizes are not what is missing
+  static constexpr Limits_of_tightening limits_at_gaps{1.0 / 32, 0, default_gradation}; // gaps are as narrow as they like
   static constexpr double safety_of_deviation = 0.9;     // once one is missed
   static constexpr double largest_growth = 1.3;          // of the number of vertices, for a deviation
   static constexpr double vertices_of_correction = is_anisotropic ? 4 : 2; // that a face costs which is too far away

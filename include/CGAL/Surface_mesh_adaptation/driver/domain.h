@@ -6,6 +6,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_DRIVER_DOMAIN_H
 #define CGAL_SURFACE_MESH_ADAPTATION_DRIVER_DOMAIN_H
 
+#include <CGAL/Surface_mesh_adaptation/distance/self_intersections.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
@@ -69,6 +70,13 @@ public:
   }
 
   bool is_inside(const Imported_mesh<FaceGraph>&, Index) const { return true; }
+
+  /// What is around the domain; the predicate says which faces of an adapted mesh are inside of it.
+  template <class VertexPointMap, class IsInside>
+  Surroundings surroundings(const VertexPointMap&, const IsInside&) const
+  {
+    return {};
+  }
 
   template <class Execution, class Surface, class VertexPointMap, class IsInside>
   void write(const Execution& execution, const Imported_mesh<FaceGraph>&, const Surface& surface,
@@ -137,6 +145,13 @@ public:
     return range_.is_inside(face(imported.halfedges[3 * std::size_t(f)], graph_));
   }
 
+  template <class VertexPointMap, class IsInside>
+  Surroundings surroundings(const VertexPointMap& points, const IsInside& is_inside) const
+  {
+    return {[this, points](const Vector_3& low, const Vector_3& high) { return triangles_around(points, low, high); },
+            is_inside};
+  }
+
   template <class Execution, class Surface, class VertexPointMap, class IsInside>
   void write(const Execution&, const Imported_mesh<FaceGraph>& imported, const Surface& surface,
              const VertexPointMap& points, const IsInside& is_inside)
@@ -172,6 +187,28 @@ public:
   }
 
 private:
+  /// The faces beyond those of the view that reach into a box.
+  template <class VertexPointMap>
+  std::vector<Triangle_points> triangles_around(const VertexPointMap& points, const Vector_3& low,
+                                                const Vector_3& high) const
+  {
+    std::vector<Triangle_points> triangles;
+    for (const auto f : faces(graph_)) {
+      if (range_.number(f) != no_index) continue;
+      Triangle_points t;
+      std::size_t i = 0;
+      for (const auto v : CGAL::vertices_around_face(halfedge(f, graph_), graph_)) {
+        if (i == 3) break; // faces that are not in the range need not be triangles: the first of their triangles
+        const auto& p = get(points, v);
+        t[i++] = Vector_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+      }
+      if ((t[0].cwiseMin(t[1]).cwiseMin(t[2]).array() <= high.array()).all() &&
+          (t[0].cwiseMax(t[1]).cwiseMax(t[2]).array() >= low.array()).all())
+        triangles.push_back(t);
+    }
+    return triangles;
+  }
+
   FaceGraph& graph_;
   Face_range<FaceGraph> range_;
   std::vector<std::uint8_t> owns_edge_;

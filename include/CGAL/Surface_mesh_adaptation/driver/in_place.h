@@ -16,14 +16,18 @@
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/fields/background_of_field.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Self_intersection_guard.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 #include <CGAL/Surface_mesh_adaptation/parameters.h>
 
+#include <chrono>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -43,16 +47,14 @@ void write_metric(const Domain& domain, const Surface& surface, const NamedParam
 
 constexpr double share_of_operations = 0.95; // of the tolerance, at first
 
-/// The tolerance that the parameters ask for, if any.
+/// The tolerance that the parameters ask for; infinite if none.
 /// \throws Invalid_parameter_error
-template <class Reference, class NamedParameters>
-std::optional<Tolerance> tolerance_of(const Any_execution& execution, const Reference& reference, const NamedParameters& np)
+template <class NamedParameters>
+double tolerance_of(const NamedParameters& np)
 {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  const double distance = choose(np, internal_np::tolerance, none);
+  const double distance = choose(np, internal_np::tolerance, std::numeric_limits<double>::infinity());
   if (!(distance > 0)) throw Invalid_parameter_error("the tolerance must be positive");
-  if (distance == none) return std::nullopt;
-  return Tolerance{distance, share_of_operations * distance, Triangle_tree(execution, reference.mesh, reference.points)};
+  return distance;
 }
 
 /// An upper bound of the distance between the input and the adapted mesh; a coarse one where that leaves the tolerance.
@@ -63,6 +65,16 @@ double certified_distance(const Any_execution& execution, const Tolerance& toler
   const Triangle_tree output(execution, surface.mesh, surface.points);
   return hausdorff_distance_bound(execution, tolerance.input, output,
                                   {precision * tolerance.distance, tolerance.distance});
+}
+
+/// Rounds the points of `surface` to what a `Point` holds: what faces meet depends on the last bit.
+template <class Point, class Surface>
+void round_to_points(const Any_execution& execution, Surface& surface)
+{
+  if constexpr (std::is_same_v<std::decay_t<decltype(std::declval<Point>().x())>, float>)
+    for_each_index(execution, surface.points.size(), [&](std::size_t v) {
+      for (double& x : surface.points[v]) x = float(x);
+    });
 }
 
 /// Calls `adapt()`, which returns a report with a certified distance, with ever stricter operations until that distance
@@ -82,70 +94,179 @@ Adaptation_report adapt_within(Tolerance& tolerance, const Adapt& adapt)
 }
 
 /// `adapt_in_place` where it is not interrupted before the kernels begin.
-/// \throws Interrupted
 template <class Domain, class MetricField, class NamedParameters, class Kernels>
-Adaptation_report adapt_uninterrupted(const Any_execution& execution, Domain& domain, const MetricField& field,
-                                      const NamedParameters& np, const Kernels& kernels)
+class In_place_adaptation
 {
-  using Reconstruction = std::decay_t<decltype(
-    choose(np, internal_np::surface_reconstruction, Gregory_reconstruction()))>;
-  const auto points = point_map(domain.graph(), np);
-  auto imported = domain.import(execution, points);
-  const Renumbering numbers = improve_locality(execution, imported);
-  domain.check_fans(execution, imported, numbers);
-  Carried_values<Domain, NamedParameters> values(domain, imported, np);
-  const Feature_parameters& features = values.features();
-  Given_jets given;
-  with_input_numbers(domain.graph(), imported, [&] { given = given_jets(imported, np); });
-  const Reference_surface<Reconstruction> reference(execution, imported.mesh, imported.points, features, std::move(given));
+public:
+  /// All live as long as this.
+  In_place_adaptation(const Any_execution& execution, Domain& domain, const MetricField& field, const NamedParameters& np,
+                      const Kernels& kernels)
+    : execution_(execution), domain_(domain), field_(field), np_(np), kernels_(kernels), points_(point_map(domain.graph(), np))
+  {}
 
-  std::optional<Tolerance> tolerance = tolerance_of(execution, reference, np);
+  /// \throws Interrupted
+  Adaptation_report run()
+  {
+    read();
+    if (choose(np_, internal_np::avoid_self_intersections, false))
+      guard_.emplace(imported_.mesh, imported_.points, surroundings_);
+    const Vertex_size_bounds bounds = vertex_size_bounds(domain_.graph(), imported_, np_);
+    for (bool is_done = false; !is_done;) {
+      const Reference reference(execution_, imported_.mesh, imported_.points,
+                                guard_ ? guard_->constrained(values_->features()) : values_->features(), given_);
+      with_input_numbers(domain_.graph(), imported_, [&] {
+        with_background_within(execution_, field_, imported_, reference, bounds,
+                               [&](const auto& background) { is_done = adapt_to(reference, background); });
+      });
+      const Effect_of_interruption count_all(execution_.interruption(), Interruption::Effect::none);
+      report_.fallback_patches = reference.number_of_fallbacks(execution_);
+    }
+    report_.threads = execution_.concurrency();
+    report_.self_intersections = intersections_;
+    return report_;
+  }
 
-  Adaptation_report report;
-  const auto adapt = [&](const auto& background) {
+private:
+  using Reconstruction = std::decay_t<decltype(choose(std::declval<const NamedParameters&>(),
+                                                      internal_np::surface_reconstruction, Gregory_reconstruction()))>;
+  using Reference = Reference_surface<Reconstruction>;
+  using Points = std::decay_t<decltype(point_map(std::declval<Domain&>().graph(), std::declval<const NamedParameters&>()))>;
+  using Point = typename boost::property_traits<Points>::value_type;
+
+  void read()
+  {
+    imported_ = domain_.import(execution_, points_);
+    const Renumbering numbers = improve_locality(execution_, imported_);
+    domain_.check_fans(execution_, imported_, numbers);
+    values_.emplace(domain_, imported_, np_);
+    with_input_numbers(domain_.graph(), imported_, [&] { given_ = given_jets(imported_, np_); });
+    if (tolerance_of(np_) < std::numeric_limits<double>::infinity()) make_tolerance();
+    surroundings_ =
+      domain_.surroundings(points_, [this](const Mesh_view& mesh, Index f) { return values_->is_inside(mesh, f); });
+    intersections_.are_counted = choose(np_, internal_np::count_self_intersections, false);
+    if (intersections_.are_counted) intersections_.before = count_intersections(imported_);
+  }
+
+  template <class Mesh>
+  std::size_t count_intersections(const Mesh& m)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    const std::size_t n = self_intersections(execution_, m.mesh, m.points, surroundings_).size();
+    intersections_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return n;
+  }
+
+  void make_tolerance()
+  {
+    const double distance = tolerance_of(np_);
+    const Triangle_tree input(execution_, imported_.mesh, imported_.points);
+    tolerance_ = Tolerance{distance, share_of_operations * distance, input, {}};
+  }
+
+  /// Adapts the mesh to the metric of `background` and writes it. Returns `false`, with nothing written, if all is to be
+  /// done again with other constraints.
+  template <class Background>
+  bool adapt_to(const Reference& reference, const Background& background)
+  {
     using Metric = std::decay_t<decltype(background.at(reference, Location(), Surface_point()))>;
-    using Surface = Adapted_surface<Metric, Reconstruction>;
-    const Tolerance* const asked = tolerance ? &*tolerance : nullptr;
-    std::optional<Surface> adapted;
-    const auto run = [&] {
-      adapted.emplace(execution, reference, background, asked);
-      adapted->max_number_of_vertices =
-        largest_number_of_vertices(choose(np, internal_np::maximum_number_of_vertices, std::size_t(-1)));
-      adapted->follow_protected_edges(execution, protected_gradation(np));
-      check_expected_size(execution, *adapted, adapted->max_number_of_vertices);
-      Adaptation_report result = [&] {
-        const Effect_of_interruption leave_out(execution.interruption(), Interruption::Effect::leave_out);
-        return kernels(execution, *adapted);
-      }();
-      if (!asked) return result;
-      const Effect_of_interruption once(execution.interruption(), result.stopped ? Interruption::Effect::none
-                                                                                 : Interruption::Effect::give_up);
-      result.tolerance = asked->distance;
-      result.certified_distance = certified_distance(execution, *asked, *adapted);
-      return result;
+    std::optional<Adapted_surface<Metric, Reconstruction>> surface;
+    const auto attempt = [&] {
+      surface.emplace(execution_, reference, background, tolerance_ ? &*tolerance_ : nullptr);
+      if (guard_) guard(*surface);
+      return adapt(*surface);
     };
-    report = asked ? adapt_within(*tolerance, run) : run();
-    const Effect_of_interruption write_all(execution.interruption(), Interruption::Effect::none);
-    Surface& surface = *adapted;
-    values.prepare(execution, surface);
-    const Carried_jets<NamedParameters> jets(execution, reference, surface.locations.size(), [&](std::size_t v) {
+    for (;;) {
+      report_ = tolerance_ && tolerance_->is_asked() ? adapt_within(*tolerance_, attempt) : attempt();
+      if (!guard_ || accepts(*surface)) break;
+      if (guard_->keeps_faces()) return false;
+    }
+    write(reference, *surface);
+    surface->release(execution_);
+    return true;
+  }
+
+  template <class Surface>
+  void guard(Surface& surface)
+  {
+    surface.intersections = &*guard_;
+    std::vector<double> bounds = guard_->bounds_at_vertices(execution_);
+    if (!bounds.empty()) surface.bound_distance(execution_, std::move(bounds));
+  }
+
+  /// One run of the kernels, and what it came to.
+  template <class Surface>
+  Adaptation_report adapt(Surface& surface)
+  {
+    surface.max_number_of_vertices =
+      largest_number_of_vertices(choose(np_, internal_np::maximum_number_of_vertices, std::size_t(-1)));
+    if (limits_.empty()) surface.follow_protected_edges(execution_, protected_gradation(np_));
+    else surface.limit_sizes(execution_, limits_);
+    check_expected_size(execution_, surface, surface.max_number_of_vertices);
+    Adaptation_report result = [&] {
+      const Effect_of_interruption leave_out(execution_.interruption(), Interruption::Effect::leave_out);
+      return kernels_(execution_, surface);
+    }();
+    if (guard_ || intersections_.are_counted) round_to_points<Point>(execution_, surface);
+    if (!tolerance_ || !tolerance_->is_asked()) return result;
+    const Effect_of_interruption once(execution_.interruption(), effect_after(result));
+    result.tolerance = tolerance_->distance;
+    result.certified_distance = certified_distance(execution_, *tolerance_, surface);
+    return result;
+  }
+
+  /// Whether the mesh has no new self-intersections. If it has, the next attempt is asked for more.
+  /// \throws Self_intersection_error
+  template <class Surface>
+  bool accepts(const Surface& surface)
+  {
+    const Effect_of_interruption once(execution_.interruption(), effect_after(report_));
+    const std::vector<Face_pair> pairs = guard_->new_pairs(execution_, surface);
+    if (pairs.empty()) return true;
+    if (report_.stopped) throw Self_intersection_error(pairs.size());
+    if (!tolerance_) make_tolerance();
+    limits_ = surface.limits();
+    guard_->find_gaps(execution_, surface);
+    guard_->ask_more(surface, pairs, *tolerance_);
+    return false;
+  }
+
+  /// A run that was stopped already is brought to its end.
+  static Interruption::Effect effect_after(const Adaptation_report& report)
+  {
+    return report.stopped ? Interruption::Effect::none : Interruption::Effect::give_up;
+  }
+
+  template <class Surface>
+  void write(const Reference& reference, Surface& surface)
+  {
+    const Effect_of_interruption write_all(execution_.interruption(), Interruption::Effect::none);
+    if (intersections_.are_counted) intersections_.after = count_intersections(surface);
+    values_->prepare(execution_, surface);
+    const Carried_jets<NamedParameters> jets(execution_, reference, surface.locations.size(), [&](std::size_t v) {
       return surface.locations[v];
-    }, np);
-    domain.write(execution, imported, surface, points, [&](Index f) { return values.is_inside(surface.mesh, f); });
-    values.write(surface); // what nobody passed first
-    write_metric(domain, surface, np);
-    jets.write(domain);
-    surface.release(execution);
-  };
-  const Vertex_size_bounds bounds = vertex_size_bounds(domain.graph(), imported, np);
-  with_input_numbers(domain.graph(), imported, [&] {
-    with_background_within(execution, field, imported, reference, bounds, adapt);
-  });
-  const Effect_of_interruption count_all(execution.interruption(), Interruption::Effect::none);
-  report.fallback_patches = reference.number_of_fallbacks(execution);
-  report.threads = execution.concurrency();
-  return report;
-}
+    }, np_);
+    domain_.write(execution_, imported_, surface, points_, [&](Index f) { return values_->is_inside(surface.mesh, f); });
+    values_->write(surface); // what nobody passed first
+    write_metric(domain_, surface, np_);
+    jets.write(domain_);
+  }
+
+  const Any_execution& execution_;
+  Domain& domain_;
+  const MetricField& field_;
+  const NamedParameters& np_;
+  const Kernels& kernels_;
+  Points points_;
+  Imported_mesh<typename Domain::Graph> imported_;
+  std::optional<Carried_values<Domain, NamedParameters>> values_;
+  Given_jets given_;
+  std::optional<Tolerance> tolerance_;
+  std::optional<Self_intersection_guard> guard_;
+  Surroundings surroundings_;
+  Self_intersection_counts intersections_;
+  Size_limits limits_; // of an attempt before, with finer sizes where faces met
+  Adaptation_report report_;
+};
 
 /// Runs `kernels(execution, surface)`, which returns a report, on `domain`.
 template <class Domain, class MetricField, class NamedParameters, class Kernels>
@@ -153,7 +274,7 @@ Adaptation_report adapt_in_place(const Any_execution& execution, Domain domain, 
                                  const NamedParameters& np, const Kernels& kernels)
 {
   try {
-    return adapt_uninterrupted(execution, domain, field, np, kernels);
+    return In_place_adaptation(execution, domain, field, np, kernels).run();
   } catch (const Interrupted&) {
     Adaptation_report report;
     report.stopped = true;

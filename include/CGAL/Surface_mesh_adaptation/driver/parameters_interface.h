@@ -21,6 +21,8 @@ CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::surface_rec
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::fit_to_surface_t, fit_to_surface)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::shape_weight_of_fit_t, shape_weight_of_fit)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::tolerance_t, tolerance)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::avoid_self_intersections_t, avoid_self_intersections)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::count_self_intersections_t, count_self_intersections)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::vertex_attribute_maps_t, vertex_attribute_maps)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::face_attribute_maps_t, face_attribute_maps)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::halfedge_attribute_maps_t, halfedge_attribute_maps)

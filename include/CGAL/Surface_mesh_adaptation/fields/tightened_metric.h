@@ -16,9 +16,6 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// What sizes are multiplied with by tightening, at least: where a third is not enough, sizes are not what is missing.
-constexpr double least_factor_of_tightening = 1.0 / 3;
-
 /// Bounds of what a metric is at points: of the size of isotropic ones; of tensors those of a factor of all sizes, so that
 /// directions stay. Where they contradict each other, the lower ones count.
 struct Size_limits
@@ -66,14 +63,22 @@ inline double least_value(const Anisotropic_metric& m, double hmin)
   return hmin * std::sqrt(eigen_decomposition(m.m).values[2]);
 }
 
+/// How far a metric may be tightened, and how fast sizes grow from there.
+struct Limits_of_tightening
+{
+  double least_factor; ///< of the sizes that are asked for
+  double hmin;         ///< the smallest size
+  double gradation;    ///< at most 1: sizes do not grow
+};
+
 /// What makes the size at `p`, which is that of `m` up to now within `limits`, `factor` times as large.
 template <class Metric>
 Graded_bounds::Source tightening(const Metric& m, const Size_limits& limits, const Vector_3& p, double factor,
-                                 const Metric_aims& aims)
+                                 const Limits_of_tightening& allowed)
 {
   const double value = limited_value(m);
-  return {p, (std::max)({factor * limits(p, value), least_factor_of_tightening * value, least_value(m, aims.hmin)}),
-          slope(m, aims.gradation)};
+  return {p, (std::max)({factor * limits(p, value), allowed.least_factor * value, least_value(m, allowed.hmin)}),
+          slope(m, allowed.gradation)};
 }
 
 } // namespace Surface_mesh_adaptation

@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/fields/Metric_background.h>
 #include <CGAL/Surface_mesh_adaptation/fields/expected_size.h>
 #include <CGAL/Surface_mesh_adaptation/fields/tightened_metric.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Self_intersection_guard.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Tolerance.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/protected_sizes.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
@@ -53,6 +54,7 @@ public:
   Buffer<Index> origin;         ///< vertex of the input that a vertex was, or `no_index`
   Buffer<std::uint8_t> active;  ///< a bit for each kernel that has to look at the vertex
   std::optional<Tolerance_guard<Reference>> tolerance; ///< if there is one
+  internal::Self_intersection_guard* intersections = nullptr; ///< what keeps the mesh from them, if anything
   std::size_t max_number_of_vertices = largest_number_of_vertices(std::size_t(-1)); ///< beyond which it is not refined
 
   /// `asked`, a tolerance, may be null; all must live as long as the surface.
@@ -133,10 +135,24 @@ public:
   /// The point of the surface where a vertex with the location `l` is put.
   Vector_3 point(const Location& l) const { return near_input(l, reference_->evaluate(l).position); }
 
-  /// The point `p` of the surface at `l`, or one nearer to the input where the tolerance wants it.
+  /// The point `p` of the surface at `l`, drawn towards the point of the input that it lies above where the patch bulges
+  /// by much of what the mesh may be away from the input.
   Vector_3 near_input(const Location& l, const Vector_3& p) const
   {
-    return tolerance ? tolerance->near_input(l, p) : p;
+    const double largest = share_of_bulge * largest_distance(l);
+    if (largest == infinity) return p;
+    const Vector_3 flat = reference_->flat_point(l), bulge = p - flat;
+    const double length = bulge.norm();
+    return length > largest ? flat + largest / length * bulge : p;
+  }
+
+  /// Places all vertices so that the surface bulges by no more than a share of `bounds`, one for each vertex of the input.
+  /// \pre no vertex is removed
+  template <class Execution>
+  void bound_distance(const Execution& execution, std::vector<double> bounds)
+  {
+    bounds_ = std::move(bounds);
+    for_each_index(execution, points.size(), [&](std::size_t v) { points[v] = point(locations[v]); });
   }
 
   Located_corner corner(Index v) const { return {locations[v], points[v]}; }
@@ -170,15 +186,27 @@ public:
     update_metrics(execution);
   }
 
+  /// What follows from protected edges, and from tightening.
+  const Size_limits& limits() const { return limits_; }
+
+  /// Takes over those of another attempt. \pre no vertex is removed
+  template <class Execution>
+  void limit_sizes(const Execution& execution, Size_limits limits)
+  {
+    limits_ = std::move(limits);
+    update_metrics(execution);
+  }
+
   /// Multiplies the sizes at the vertices by those `factors` that are below 1, and around them as the gradation wants
   /// it. Returns a 1 for each vertex of which that changes the metric. \pre no vertex is removed
   template <class Execution>
-  std::vector<std::uint8_t> tighten_metric(const Execution& execution, const std::vector<double>& factors)
+  std::vector<std::uint8_t> tighten_metric(const Execution& execution, const std::vector<double>& factors,
+                                           const Limits_of_tightening& allowed)
   {
     std::vector<Graded_bounds::Source> sources = limits_.upper.sources();
     for (const Index v : pack(execution, factors.size(), [&](std::size_t i) { return factors[i] < 1; })) {
       const Metric unlimited = background_->at(*reference_, locations[v], surface_point(v));
-      sources.push_back(tightening(unlimited, limits_, points[v], factors[v], background_->aims()));
+      sources.push_back(tightening(unlimited, limits_, points[v], factors[v], allowed));
     }
     limits_.upper = Graded_bounds(execution, std::move(sources));
     return update_metrics(execution);
@@ -203,6 +231,20 @@ public:
   }
 
 private:
+  /// How far the mesh may be away from the input at `l`, without jumps from face to face.
+  double largest_distance(const Location& l) const
+  {
+    const double everywhere = tolerance ? tolerance->of_operations() : infinity;
+    if (bounds_.empty()) return everywhere;
+    const auto at = reference_->interpolation(l);
+    double inverse = 0;
+    for (std::size_t i = 0; i < 3; ++i) inverse += at.weights[i] / bounds_[at.vertices[i]];
+    return (std::min)(everywhere, 1 / inverse);
+  }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr double share_of_bulge = 0.25; // of the distance: the rest is for the faces between the points
+
   Surface_point surface_point(Index v) const { return {points[v], normals[v]}; }
 
   /// Returns a 1 for each vertex of which the metric is another one now. \pre no vertex is removed
@@ -234,6 +276,7 @@ private:
   const Background* background_;
   double scale_ = 1; ///< of the metric
   Size_limits limits_;   ///< the same
+  std::vector<double> bounds_; ///< of the distance from the input at each vertex of it; empty: none
 };
 
 } // namespace Surface_mesh_adaptation

@@ -85,6 +85,12 @@ public:
     return {c, Mesh_view::face(h), h % 3 == 1 ? 1.0 : 0.0, h % 3 == 2 ? 1.0 : 0.0};
   }
 
+  /// A face of the reference that has the location.
+  Index face_at(const Location& l) const
+  {
+    return l.kind == Vertex_class::smooth ? l.cell : Mesh_view::face(mesh.outgoing[interpolation(l).vertices[0]]);
+  }
+
   /// What the patch over face `f` is made from.
   Patch patch(Index f) const
   {

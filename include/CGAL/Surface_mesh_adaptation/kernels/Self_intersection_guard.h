@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// No face of an adapted mesh is to meet another one where the input had no faces that do. Those that do are found by exact
+// predicates. Where the driver's finer sizes do not part them, all is done again: within bounds of the distance from the
+// input where sheets are near each other, see gap_bounds.h, then within tighter ones where faces meet, and then with the
+// triangles of the input kept there, ever more of them. The input has no new intersections, so that this comes to an end.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SELF_INTERSECTION_GUARD_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SELF_INTERSECTION_GUARD_H
+
+#include <CGAL/Surface_mesh_adaptation/distance/gap_bounds.h>
+#include <CGAL/Surface_mesh_adaptation/distance/self_intersections.h>
+#include <CGAL/Surface_mesh_adaptation/exceptions.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Tolerance.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/metric/metric.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+/// The largest size that a metric asks for.
+inline double largest_size(const Isotropic_metric& m) { return 1 / m.inverse_size; }
+inline double largest_size(const Anisotropic_metric& m) { return 1 / std::sqrt(eigen_decomposition(m.m).values[0]); }
+
+class Self_intersection_guard
+{
+public:
+  /// `mesh` and `points` are the input; all live as long as this.
+  Self_intersection_guard(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Surroundings& surroundings)
+    : mesh_(mesh), points_(points), surroundings_(surroundings), is_kept_(mesh.number_of_faces(), 0)
+  {}
+
+  /// The pairs of faces of `surface` that meet, but for those where the input has such.
+  template <class Execution, class Surface>
+  std::vector<Face_pair> new_pairs(const Execution& execution, const Surface& surface)
+  {
+    std::vector<Face_pair> pairs = self_intersections(execution, surface.mesh, surface.points, surroundings_);
+    if (pairs.empty()) return pairs;
+    if (is_old_.empty()) find_old(execution);
+    const auto is_old = [&](const Face_pair& p) { return is_above_old(surface, p[0]) && is_above_old(surface, p[1]); };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_old), pairs.end());
+    return pairs;
+  }
+
+  /// Looks for gaps that matter for the sizes of `surface`, once.
+  template <class Execution, class Surface>
+  void find_gaps(const Execution& execution, const Surface& surface)
+  {
+    if (gaps_) return;
+    constexpr double reach = 1.5;           // sizes: beyond a gap of 1.4, a bound would be half a size
+    constexpr double reach_of_facets = 0.5; // of their edges, that much a surface may bulge
+    const auto& reference = surface.reference();
+    std::vector<double> reaches(mesh_.number_of_vertices());
+    for_each_index(execution, reaches.size(), [&](std::size_t v) {
+      double longest = 0;
+      mesh_.for_each_neighbor(Index(v), [&](Index w) { longest = (std::max)(longest, (points_[w] - points_[v]).norm()); });
+      const Surface_point p{points_[v], reference.normals.at(mesh_.outgoing[v])};
+      const auto metric = surface.background().at(reference, reference.location_of_vertex(Index(v)), p);
+      reaches[v] = (std::max)(reach * largest_size(metric), reach_of_facets * longest);
+    });
+    Triangle_tree tree(execution, mesh_, points_);
+    std::vector<double> bounds = gap_bounds(execution, mesh_, points_, tree, reaches);
+    gaps_ = Gaps{std::move(tree), std::move(bounds)};
+  }
+
+  /// How far the input may be left at each of its vertices; empty as long as faces did not meet.
+  template <class Execution>
+  std::vector<double> bounds_at_vertices(const Execution& execution) const
+  {
+    std::vector<double> bounds(gaps_ ? mesh_.number_of_vertices() : 0, infinity);
+    for_each_index(execution, bounds.size(), [&](std::size_t v) {
+      mesh_.for_each_outgoing(Index(v), [&](Index h) {
+        bounds[v] = (std::min)(bounds[v], gaps_->bounds[gaps_->tree.place(Mesh_view::face(h))]);
+      });
+    });
+    return bounds;
+  }
+
+  /// What the sizes at the vertices of `surface` are to be multiplied with so that the faces of `pairs` come nearer to the
+  /// input than half the gaps there: distances go with the squares of sizes. \pre gaps were found
+  template <class Surface>
+  std::vector<double> size_factors(const Surface& surface, const std::vector<Face_pair>& pairs) const
+  {
+    constexpr double strongest_step = 0.35, weakest_step = 0.8;
+    std::vector<double> factors(surface.mesh.number_of_vertices(), 1);
+    for (const Face_pair& pair : pairs)
+      for (const Index f : pair) {
+        const double ratio = share_of_distance(surface, f);
+        if (ratio > 1 && share_of_distance(surface, f == pair[0] ? pair[1] : pair[0]) < 1) continue; // it is the other one
+        const double factor = std::clamp(std::sqrt(ratio), strongest_step, weakest_step);
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+          double& at_corner = factors[surface.mesh.source(h)];
+          at_corner = (std::min)(at_corner, factor);
+        }
+      }
+    return factors;
+  }
+
+  /// Asks more of the next attempt, by `tolerance` or `constrained()`, after `pairs` met in `surface`.
+  /// \pre gaps were found \throws Self_intersection_error if all was tried
+  template <class Surface>
+  void ask_more(const Surface& surface, const std::vector<Face_pair>& pairs, Tolerance& tolerance)
+  {
+    if (attempts_ == max_attempts) throw Self_intersection_error(pairs.size());
+    if (attempts_ > 0)
+      for (const Face_pair& pair : pairs)
+        for (const Index f : pair) tighten(surface, f);
+    tolerance.bounds = gaps_->bounds;
+    ++attempts_;
+    if (keeps_faces()) is_kept_ = with_faces_around(is_kept_);
+  }
+
+  /// Whether triangles of the input have to be kept from now on.
+  bool keeps_faces() const { return attempts_ > attempts_with_bounds; }
+
+  /// `features`, with the edges of all faces that have to be kept.
+  Feature_parameters constrained(Feature_parameters features) const
+  {
+    if (!keeps_faces()) return features;
+    features.halfedge_constraint.resize(mesh_.number_of_halfedges(), Edge_constraint::none);
+    for (Index h = 0; h < mesh_.number_of_halfedges(); ++h) {
+      const Index t = mesh_.twin[h];
+      if (is_kept_[Mesh_view::face(h)] != 0 || (t != no_index && is_kept_[Mesh_view::face(t)] != 0))
+        features.halfedge_constraint[h] = Edge_constraint::protect;
+    }
+    return features;
+  }
+
+private:
+  static constexpr int attempts_with_bounds = 3;
+  static constexpr int max_attempts = 10;
+
+  template <class Execution>
+  void find_old(const Execution& execution)
+  {
+    is_old_.assign(mesh_.number_of_faces(), 0);
+    for (const Face_pair& pair : self_intersections(execution, mesh_, points_, surroundings_))
+      for (const Index f : pair) is_old_[f] = 1;
+    is_old_ = with_faces_around(is_old_);
+  }
+
+  /// The input, and how far it may be left at each of its triangles.
+  struct Gaps
+  {
+    Triangle_tree tree;
+    std::vector<double> bounds;
+  };
+
+  /// The marks, and all faces with a vertex of a marked one.
+  std::vector<std::uint8_t> with_faces_around(const std::vector<std::uint8_t>& marks) const
+  {
+    std::vector<std::uint8_t> is_near(mesh_.number_of_vertices(), 0), result(marks.size(), 0);
+    for (std::size_t h = 0; h < mesh_.number_of_halfedges(); ++h)
+      if (marks[h / 3] != 0) is_near[mesh_.corner[h]] = 1;
+    for (std::size_t h = 0; h < mesh_.number_of_halfedges(); ++h)
+      if (is_near[mesh_.corner[h]] != 0) result[h / 3] = 1;
+    return result;
+  }
+
+  template <class Surface>
+  bool is_above_old(const Surface& surface, Index f) const
+  {
+    const std::vector<Index> below = faces_below(surface, f);
+    return std::any_of(below.begin(), below.end(), [&](Index face) { return is_old_[face] != 0; });
+  }
+
+  /// The faces of the input at the corners of the face `f` of `surface`, and those from there that are near its middle.
+  template <class Surface>
+  std::vector<Index> faces_below(const Surface& surface, Index f) const
+  {
+    std::vector<Index> faces;
+    const auto add = [&](Index face) {
+      if (std::find(faces.begin(), faces.end(), face) == faces.end()) faces.push_back(face);
+    };
+    const Triangle_points t = corners_from(surface.mesh, surface.points, 3 * f);
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) add(surface.reference().face_at(surface.locations[surface.mesh.source(h)]));
+    const Vector_3 middle = (t[0] + t[1] + t[2]) / 3;
+    const double radius = (std::max)({(t[0] - middle).norm(), (t[1] - middle).norm(), (t[2] - middle).norm()});
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
+        const Index t = mesh_.twin[h];
+        if (t != no_index &&
+            squared_distance_to_triangle(middle, corners_from(mesh_, points_, t)) <= radius * radius)
+          add(Mesh_view::face(t));
+      }
+    return faces;
+  }
+
+  /// About how far the face `f` of `surface` is away from the input, at most. `near` is a face of that.
+  template <class Surface>
+  double distance_from_input(const Surface& surface, Index f, Index near) const
+  {
+    const Triangle_points t = corners_from(surface.mesh, surface.points, 3 * f);
+    double largest = 0;
+    for (const Vector_3& p : {Vector_3((t[0] + t[1] + t[2]) / 3), Vector_3((t[0] + t[1]) / 2),
+                              Vector_3((t[1] + t[2]) / 2), Vector_3((t[2] + t[0]) / 2), t[0], t[1], t[2]})
+      largest = (std::max)(largest, gaps_->tree.nearest(p, gaps_->tree.place(near)).squared_distance);
+    return std::sqrt(largest);
+  }
+
+  /// The distance that operations should keep below the face `f` of `surface`, in that of the face.
+  template <class Surface>
+  double share_of_distance(const Surface& surface, Index f) const
+  {
+    double bound = infinity;
+    const std::vector<Index> below = faces_below(surface, f);
+    for (const Index face : below) bound = (std::min)(bound, gaps_->bounds[gaps_->tree.place(face)]);
+    return bound / distance_from_input(surface, f, below[0]);
+  }
+
+  /// Lets operations leave the faces of the input below the face `f` of `surface` by a third of what that leaves them, or
+  /// of what they might up to now; in the end not at all.
+  template <class Surface>
+  void tighten(const Surface& surface, Index f)
+  {
+    constexpr double factor = 1.0 / 3;
+    const std::vector<Index> below = faces_below(surface, f);
+    const double distance = distance_from_input(surface, f, below[0]);
+    for (const Index face : below) {
+      double& bound = gaps_->bounds[gaps_->tree.place(face)];
+      bound = factor * (std::min)(bound, distance);
+      if (attempts_ >= attempts_with_bounds) is_kept_[face] = 1;
+    }
+  }
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  const Mesh_view& mesh_;
+  const std::vector<Vector_3>& points_;
+  const Surroundings& surroundings_;
+  std::vector<std::uint8_t> is_old_;  // each face of the input that meets another one, and those around; empty: not known
+  std::vector<std::uint8_t> is_kept_; // each face of the input that has to stay
+  std::optional<Gaps> gaps_; // once they are needed
+  int attempts_ = 0;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SELF_INTERSECTION_GUARD_H
