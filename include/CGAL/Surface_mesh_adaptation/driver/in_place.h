@@ -138,8 +138,9 @@ Adaptation_report adapt_uninterrupted(const Any_execution& execution, Domain& do
     surface.release(execution);
   };
   const Vertex_size_bounds bounds = vertex_size_bounds(domain.graph(), imported, np);
+  const std::vector<double> deviations = face_deviations(domain.graph(), imported, np);
   with_input_numbers(domain.graph(), imported, [&] {
-    with_background_within(execution, field, imported, reference, bounds, adapt);
+    with_background_within(execution, field, Field_input{imported.vertices, deviations}, reference, bounds, adapt);
   });
   const Effect_of_interruption count_all(execution.interruption(), Interruption::Effect::none);
   report.fallback_patches = reference.number_of_fallbacks(execution);
