@@ -115,7 +115,7 @@ void run(const Options& options)
     read_mesh(options.input, mesh, {!options.no_weld, options.repair, !options.no_references});
   });
   protect_edges(options, mesh);
-  put_size_parameters(options.parameters, mesh);
+  put_size_parameters(options, mesh);
   const Carried_fields fields(options, mesh);
   const Mesh input = options.quiet ? Mesh() : mesh.mesh;
   Output_metric output_metric;

@@ -262,6 +262,19 @@ TEST(Parameter, feature_angle_out_of_range_is_refused)
     });
 }
 
+TEST(Parameter, deviations_of_faces_that_make_no_sense_are_refused)
+{
+  Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(2));
+  const auto deviation = mesh.add_property_map<Mesh::Face_index, double>("f:deviation", 0).first;
+  for (const double bad : {-1.0, nan, infinity}) {
+    deviation[Mesh::Face_index(7)] = bad;
+    expect_refusal<SMA::Invalid_parameter_error>(mesh, [&](Mesh& m) {
+      SMA::adapt_surface_mesh<CGAL::Sequential_tag>(m, SMA::Curvature_metric_field(0.01),
+                                                    params::face_deviation_map(deviation));
+    });
+  }
+}
+
 TEST(Parameter, hmin_above_hmax_is_refused)
 {
   Mesh mesh = shapes::mesh<Mesh>(shapes::sphere(2));

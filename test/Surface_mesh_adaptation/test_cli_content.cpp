@@ -140,6 +140,72 @@ TEST_F(Content, sizes_by_reference)
   expect_failure(3, "in.mesh out.off --size 1 --parameters in.mmgs", "three numbers expected");
 }
 
+/// A sphere whose faces above and below the equator have the references 1 and 2.
+SMA::Medit_mesh sphere_with_references(int level)
+{
+  SMA::Medit_mesh m;
+  const Soup soup = shapes::sphere(level);
+  for (const Vector_3& p : soup.points) m.points.push_back({p[0], p[1], p[2]});
+  for (const shapes::Triangle& t : soup.triangles) {
+    m.triangles.push_back({t[0], t[1], t[2]});
+    m.triangle_references.push_back(soup.points[t[0]][2] + soup.points[t[1]][2] + soup.points[t[2]][2] > 0 ? 1 : 2);
+  }
+  m.point_references.assign(m.points.size(), 0);
+  return m;
+}
+
+/// Of the faces of a unit sphere that have a reference, those far from the equator: the mean size of their edges and the
+/// largest distance of their centroids from the sphere.
+struct Cap
+{
+  double size = 0, distance = 0;
+
+  Cap(const SMA::Medit_mesh& m, int reference)
+  {
+    const auto at = [&](std::uint32_t v) { return Vector_3(m.points[v][0], m.points[v][1], m.points[v][2]); };
+    double area = 0, n = 0;
+    for (std::size_t i = 0; i < m.triangles.size(); ++i) {
+      const Vector_3 a = at(m.triangles[i][0]), b = at(m.triangles[i][1]), c = at(m.triangles[i][2]);
+      const Vector_3 centroid = (a + b + c) / 3;
+      if (m.triangle_references[i] != reference || std::abs(centroid[2]) < 0.7) continue;
+      area += (b - a).cross(c - a).norm() / 2;
+      distance = std::max(distance, 1 - centroid.norm());
+      ++n;
+    }
+    size = std::sqrt(area / n * 4 / std::sqrt(3.0));
+  }
+};
+
+TEST_F(Content, distances_by_reference)
+{
+  SMA::write_medit_mesh(path("in.mesh").string(), sphere_with_references(4));
+  write(path("in.mmgs"), "Parameters\n1\n\n1 Triangle 0.001 2 0.0005\n");
+  const double coarse = 0.004, fine = 0.0005, diagonal = 2 * std::sqrt(3.0);
+  const auto run = [&](const std::string& options) {
+    expect_success("in.mesh out.mesh --quiet --gradation 2 " + options);
+    return SMA::read_medit_mesh(path("out.mesh").string());
+  };
+  const std::string curvature = "--curvature " + std::to_string(coarse / diagonal);
+  const SMA::Medit_mesh plain = run(curvature), out = run(curvature + " --parameters in.mmgs");
+  const Cap with(out, 1), other(out, 2), without(plain, 1), other_without(plain, 2);
+  EXPECT_NEAR(without.size / with.size, std::sqrt(coarse / fine), 0.15 * std::sqrt(coarse / fine));
+  EXPECT_NEAR(other.size, other_without.size, 0.05 * other_without.size);
+  EXPECT_LT(with.distance, 1.5 * fine);
+  EXPECT_GT(with.distance, 0.5 * fine);
+  EXPECT_LT(other.distance, 1.5 * coarse);
+  EXPECT_GT(other.distance, 0.5 * coarse);
+
+  const auto warning = [&](const std::string& options) {
+    const Outcome outcome = this->run("in.mesh out.mesh --parameters in.mmgs " + options);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_NE(warning("--tolerance 0.002").find("--tolerance is the same everywhere"), std::string::npos);
+  for (const char* options : {"--size 0.2", "--vertices 1000"})
+    EXPECT_NE(warning(options).find("distances there are not used"), std::string::npos) << options;
+  EXPECT_EQ(warning(curvature).find("distances there"), std::string::npos);
+}
+
 TEST_F(Content, boundaries_and_marked_edges_if_asked_for)
 {
   write(path("in.off"), off(shapes::open_cylinder(16, 4, 1)));

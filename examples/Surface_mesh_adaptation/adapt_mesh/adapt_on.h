@@ -63,6 +63,7 @@ SMA::Adaptation_report adapt_on(const Options& options, Constrained_mesh& mesh, 
       .edge_is_protected_map(mesh.edge_is_protected)
       .face_patch_map(mesh.label)
       .face_size_bounds_map(mesh.size_bounds)
+      .face_deviation_map(mesh.deviation)
       .vertex_attribute_maps(maps_of_vertices(mesh, fields))
       .face_attribute_maps(maps_of_faces(mesh))
       .halfedge_attribute_maps(maps(mesh.at_corners))

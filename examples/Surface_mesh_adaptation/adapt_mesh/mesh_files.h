@@ -61,6 +61,7 @@ struct Constrained_mesh
   Mesh::Property_map<Vertex, bool> vertex_is_constrained;
   Mesh::Property_map<Face, int> label;  ///< all 0 if there are none
   Mesh::Property_map<Face, std::pair<double, double>> size_bounds; ///< of the input; 0: no bound
+  Mesh::Property_map<Face, double> deviation; ///< that sizes from the curvature aim at in the input; 0: as elsewhere
   bool has_labels = false;
   std::vector<Label> names;             ///< of the labels 0, 1, ...; empty if they are numbers only
   std::string material_library;
@@ -79,7 +80,8 @@ struct Constrained_mesh
       edge_is_protected(mesh.add_property_map<Edge, bool>("e:protected", false).first),
       vertex_is_constrained(mesh.add_property_map<Vertex, bool>("v:constrained", false).first),
       label(mesh.add_property_map<Face, int>("f:label", 0).first),
-      size_bounds(mesh.add_property_map<Face, std::pair<double, double>>("f:size_bounds", {0, 0}).first)
+      size_bounds(mesh.add_property_map<Face, std::pair<double, double>>("f:size_bounds", {0, 0}).first),
+      deviation(mesh.add_property_map<Face, double>("f:deviation", 0).first)
   {}
   Constrained_mesh(const Constrained_mesh&) = delete; // the maps belong to the mesh
   Constrained_mesh& operator=(const Constrained_mesh&) = delete;

@@ -112,7 +112,8 @@ inline po::options_description described_options(Options& o)
     ("no-references", po::bool_switch(&o.no_references),
      "forget labels of faces: references, groups, materials, solids; required elements count as ridges and corners")
     ("parameters", po::value(&o.parameters)->value_name("FILE.mmgs"),
-     "bounds on the sizes by the references of the triangles, as mmgs reads them; distances there are not used")
+     "bounds on the sizes by the references of the triangles, as mmgs reads them, and distances there in place of that of "
+     "--curvature")
     ("attributes", po::value(&o.attributes)->value_name("FILE.sol"),
      "fields at the vertices of the input, any number of them, to be carried to the output")
     ("output-attributes", po::value(&o.output_attributes)->value_name("FILE.sol"), "where to write these")

@@ -70,7 +70,8 @@ struct Adaptation_report
   double certified_distance = 0;   ///< if one was: an upper bound of their Hausdorff distance, by 2 % of it too large
                                    ///< at most
   double deviation = 0;            ///< with the tolerance of a `Curvature_metric_field`: largest distance from the surface
-                                   ///< at some places of each face, and of a vertex of the input from the faces
+                                   ///< at some places of each face, and of a vertex of the input from the faces; over
+                                   ///< faces with one of their own (`face_deviation_map`) in proportion to that
   Self_intersection_counts self_intersections; ///< of the input and the output
   double seconds = 0;  ///< time of the whole run
 

@@ -199,6 +199,14 @@ step at the end: if anything throws, it is as it was.
     \cgalParamType{a `ReadablePropertyMap` with the face descriptor as key and `std::pair<double, double>` as value}
     \cgalParamDefault{no bounds}
   \cgalParamNEnd
+  \cgalParamNBegin{face_deviation_map}
+    \cgalParamDescription{how far the mesh may be from the surface in each face of the input, where sizes come from a
+                          `Curvature_metric_field` without a number of vertices: a length that counts there in place of
+                          the tolerance of the field; 0: that. Read, not written. The `tolerance` is another thing, and
+                          everywhere the same}
+    \cgalParamType{a `ReadablePropertyMap` with the face descriptor as key and `double` as value}
+    \cgalParamDefault{everywhere the tolerance of the field}
+  \cgalParamNEnd
   \cgalParamNBegin{surface_reconstruction}
     \cgalParamDescription{the surface between the vertices of the input}
     \cgalParamType{a model of `SurfaceReconstruction`}

@@ -30,6 +30,7 @@ enum halfedge_attribute_maps_t { halfedge_attribute_maps };
 enum vertex_origin_map_t { vertex_origin_map };
 enum face_origin_map_t { face_origin_map };
 enum face_size_bounds_map_t { face_size_bounds_map };
+enum face_deviation_map_t { face_deviation_map };
 enum edge_is_protected_map_t { edge_is_protected_map };
 enum protected_gradation_t { protected_gradation };
 enum vertex_attribute_maps_t { vertex_attribute_maps };

@@ -807,12 +807,13 @@ TEST(Proximity_tensors, of_degenerate_faces_are_finite)
 
 /// The values of a field at the vertices, in the order of the mesh.
 template <class Value, class Field>
-std::vector<Value> vertex_metric(Mesh& mesh, const Field& field)
+std::vector<Value> vertex_metric(Mesh& mesh, const Field& field, const std::vector<double>& deviations = {})
 {
   const auto imported = SMA::internal::read_face_graph(sequential, mesh, get(CGAL::vertex_point, mesh));
   const Reference r(sequential, imported.mesh, imported.points, {});
   std::vector<Value> result;
-  SMA::internal::with_vertex_metric(sequential, field, imported, r, [&](const auto& values) {
+  const SMA::internal::Field_input input{imported.vertices, deviations};
+  SMA::internal::with_vertex_metric(sequential, field, input, r, [&](const auto& values) {
     if constexpr (std::is_same_v<std::decay_t<decltype(values)>, std::vector<Value>>) result = values;
     else ADD_FAILURE() << "a metric of the other kind";
   });
@@ -850,6 +851,28 @@ TEST(Curvature_metric_field, has_the_sizes_of_the_chordal_bound)
     EXPECT_NEAR(1 / std::sqrt(l[1]), expected, 0.02 * expected);
     EXPECT_NEAR(1 / std::sqrt(l[2]), expected, 0.02 * expected);
   }
+}
+
+TEST(Curvature_metric_field, follows_the_deviations_of_faces)
+{
+  const Soup soup = shapes::sphere(3, 0.3);
+  Mesh mesh = shapes::mesh<Mesh>(soup);
+  SMA::Curvature_metric_field field(1e-3);
+  field.gradation = 1;
+  const double common = 1e-3 * SMA::internal::diagonal_of_bounding_box(soup.points);
+  std::vector<double> deviations(mesh.number_of_faces(), 0);
+  for (const auto f : mesh.faces())
+    if (mesh.point(mesh.target(mesh.halfedge(f))).x() > 0) deviations[f] = f.idx() % 2 == 0 ? common / 4 : 4 * common;
+  const std::vector<double> plain = vertex_metric<double>(mesh, field);
+  const std::vector<double> sizes = vertex_metric<double>(mesh, field, deviations);
+  for (const auto v : mesh.vertices()) {
+    double least = 4 * common;
+    for (const auto f : CGAL::faces_around_target(mesh.halfedge(v), mesh))
+      least = std::min(least, deviations[f] > 0 ? deviations[f] : common);
+    EXPECT_NEAR(sizes[v], plain[v] * std::sqrt(least / common), 1e-12);
+  }
+  field.vertices = 1000; // whatever the tolerance is then
+  EXPECT_EQ(vertex_metric<double>(mesh, field, deviations), vertex_metric<double>(mesh, field));
 }
 
 TEST(Curvature_metric_field, of_noisy_points_is_smoother_if_told)

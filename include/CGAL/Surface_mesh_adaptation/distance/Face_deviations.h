@@ -25,7 +25,8 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 
 /// For each face of an adapted mesh its largest distance from the surface, at its centroid and the middles of its
-/// edges, and that of the vertices of the input next to it.
+/// edges, and that of the vertices of the input next to it. Where the aims of the metric have a deviation of its own for a
+/// face of the input, distances above that count as many times as it is smaller than the common one.
 template <class Surface>
 class Face_deviations
 {
@@ -109,9 +110,10 @@ private:
     const Vector_3 centroid = (point(f, 0) + point(f, 1) + point(f, 2)) / 3;
     const double precision = share_of_length * (point(f, 0) - centroid).norm();
     const Located_point start = surface_.reference().locate(start_at(f, 0), centroid, precision);
+    const double weight = this->weight(start.location.cell);
     const auto distance_of = [&](const Vector_3& p) {
       double d = distance(surface_.reference().locate(start, p, precision), p);
-      for (std::size_t i = 0; i < 3 && d > allowed_; ++i)
+      for (std::size_t i = 0; i < 3 && weight * d > allowed_; ++i)
         d = (std::min)(d, distance(surface_.reference().locate(start_at(f, i), p, precision), p));
       return d;
     };
@@ -121,7 +123,22 @@ private:
       if (mesh_.is_feature(h)) result = (std::max)(result, distance_of_curve(h));
       else if (is_owner(h)) result = (std::max)(result, distance_of((point(f, i) + point(f, i + 1)) / 2));
     }
-    return result;
+    return weight * result;
+  }
+
+  /// As what a distance of 1 counts above a face of the input.
+  double weight(Index face_of_input) const
+  {
+    const auto& aims = surface_.background().aims();
+    return aims.deviation_of_face.empty() ? 1 : aims.deviation / aims.deviation_of_face[face_of_input];
+  }
+
+  double weight_at_vertex(Index vertex_of_input) const
+  {
+    const Mesh_view& input = surface_.reference().mesh;
+    double largest = 0;
+    input.for_each_outgoing(vertex_of_input, [&](Index h) { largest = (std::max)(largest, weight(Mesh_view::face(h))); });
+    return largest;
   }
 
   /// Whether the edge of `h` counts for its face and not for that across: whatever their numbers are.
@@ -175,9 +192,9 @@ private:
         face_of_input_[lost[i]] = keys[face[guess]];
       }
     });
-    for (const auto& n : nearest) {
-      double& deviation = deviations_[face[n.triangle]];
-      deviation = (std::max)(deviation, std::sqrt(n.squared_distance));
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+      double& deviation = deviations_[face[nearest[i].triangle]];
+      deviation = (std::max)(deviation, weight_at_vertex(lost[i]) * std::sqrt(nearest[i].squared_distance));
     }
   }
 

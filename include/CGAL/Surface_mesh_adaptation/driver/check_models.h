@@ -167,6 +167,7 @@ struct Maps_of
   template <class M> struct Corner_attributes : std::bool_constant<are_read_write_maps<M, Halfedge_of<Graph>>> {};
   template <class M> struct Size_bounds
     : std::bool_constant<is_readable_as<M, Face_of<Graph>, std::pair<double, double>>> {};
+  template <class M> struct Deviations : std::bool_constant<is_readable_as<M, Face_of<Graph>, double>> {};
 };
 template <class T> struct Is_reconstruction : std::bool_constant<is_surface_reconstruction<T>> {};
 template <class T> struct Is_visitor : std::bool_constant<is_adaptation_visitor<T>> {};
@@ -203,6 +204,8 @@ constexpr bool check_parameters()
                 "halfedge_attribute_maps must be a std::tuple of ReadWritePropertyMaps of the halfedges, or a std::vector");
   static_assert(is_absent_or<NP, internal_np::face_size_bounds_map_t, Maps::template Size_bounds>,
                 "face_size_bounds_map must be a ReadablePropertyMap, from faces to std::pair<double, double>");
+  static_assert(is_absent_or<NP, internal_np::face_deviation_map_t, Maps::template Deviations>,
+                "face_deviation_map must be a ReadablePropertyMap, from faces to double");
   static_assert(is_absent_or<NP, internal_np::edge_is_protected_map_t, Maps::template Edge_marks>,
                 "edge_is_protected_map must be a ReadablePropertyMap, from edges to bool");
   static_assert(is_absent_or<NP, internal_np::surface_reconstruction_t, Is_reconstruction>,

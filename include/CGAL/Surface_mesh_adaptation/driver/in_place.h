@@ -111,11 +111,12 @@ public:
     if (choose(np_, internal_np::avoid_self_intersections, false))
       guard_.emplace(imported_.mesh, imported_.points, surroundings_);
     const Vertex_size_bounds bounds = vertex_size_bounds(domain_.graph(), imported_, np_);
+    const std::vector<double> deviations = face_deviations(domain_.graph(), imported_, np_);
     for (bool is_done = false; !is_done;) {
       const Reference reference(execution_, imported_.mesh, imported_.points,
                                 guard_ ? guard_->constrained(values_->features()) : values_->features(), given_);
       with_input_numbers(domain_.graph(), imported_, [&] {
-        with_background_within(execution_, field_, imported_, reference, bounds,
+        with_background_within(execution_, field_, Field_input{imported_.vertices, deviations}, reference, bounds,
                                [&](const auto& background) { is_done = adapt_to(reference, background); });
       });
       const Effect_of_interruption count_all(execution_.interruption(), Interruption::Effect::none);

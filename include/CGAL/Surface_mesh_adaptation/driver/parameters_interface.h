@@ -31,6 +31,7 @@ CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::face_origin
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::edge_is_protected_map_t, edge_is_protected_map)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::protected_gradation_t, protected_gradation)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::face_size_bounds_map_t, face_size_bounds_map)
+CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::face_deviation_map_t, face_deviation_map)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::vertex_shape_operator_map_t, vertex_shape_operator_map)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::maximum_normal_deviation_t, maximum_normal_deviation)
 CGAL_SMA_NAMED_PARAMETER(CGAL::Surface_mesh_adaptation::internal_np::maximum_distance_t, maximum_distance)

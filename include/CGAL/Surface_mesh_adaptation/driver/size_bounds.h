@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Bounds of sizes that the user gives for faces, by their material for instance, at the vertices.
+// What the user asks for in faces, by their material for instance: bounds of sizes, at the vertices, and distances of the
+// mesh from the surface.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_DRIVER_SIZE_BOUNDS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_DRIVER_SIZE_BOUNDS_H
@@ -15,6 +16,7 @@
 #include <cstddef>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -55,6 +57,24 @@ Vertex_size_bounds vertex_size_bounds(const FaceGraph& graph, const Imported_mes
     for (Index h = 0; h < n; h += 3) add_bounds(imported.mesh, h, at(h), bounds);
   }
   return bounds;
+}
+
+/// The deviations that `face_deviation_map` gives; empty if there is no such map, or nothing but 0 in it.
+/// \throws Invalid_parameter_error
+template <class FaceGraph, class NamedParameters>
+std::vector<double> face_deviations(const FaceGraph& graph, const Imported_mesh<FaceGraph>& imported,
+                                    const NamedParameters& np)
+{
+  std::vector<double> deviations;
+  if constexpr (has_parameter<NamedParameters, internal_np::face_deviation_map_t>) {
+    const auto map = CGAL::parameters::get_parameter(np, internal_np::face_deviation_map);
+    for (std::size_t h = 0; h < imported.halfedges.size(); h += 3)
+      deviations.push_back(CGAL::to_double(get(map, face(imported.halfedges[h], graph))));
+    for (const double d : deviations)
+      if (!(d >= 0 && std::isfinite(d))) throw Invalid_parameter_error("deviations of faces must be positive or 0");
+    if (std::count(deviations.begin(), deviations.end(), 0.0) == std::ptrdiff_t(deviations.size())) deviations.clear();
+  }
+  return deviations;
 }
 
 } // namespace internal

@@ -47,6 +47,7 @@ struct Metric_aims
 {
   double number_of_vertices = 0; ///< 0: any
   double deviation = 0;          ///< largest distance of its faces from the surface; 0: any
+  std::vector<double> deviation_of_face = {}; ///< the same above each face of the input; empty: everywhere that one
   double hmin = 0;               ///< smallest size of a metric that is tightened for that
   double gradation = 1;          ///< and its gradation
 };

@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -94,17 +95,28 @@ const std::vector<Metric_tensor_3>& checked_tensors(const Execution& execution, 
 }
 /// @}
 
-/// `with_vertex_metric(execution, field, imported, reference, use)` calls `use(values)` with the sizes or tensors that
+/// What fields are told of the input beside its surface.
+template <class Vertex>
+struct Field_input
+{
+  const std::vector<Vertex>& vertices;
+  const std::vector<double>& deviations; ///< asked for above each face; 0: that of the field; empty: nothing but that
+};
+
+template <class Vertex>
+Field_input(const std::vector<Vertex>&, const std::vector<double>&) -> Field_input<Vertex>;
+
+/// `with_vertex_metric(execution, field, input, reference, use)` calls `use(values)` with the sizes or tensors that
 /// `field` stands for at the vertices of the reference surface.
-template <class Execution, class Import, class Reference, class Use>
-void with_vertex_metric(const Execution&, const Uniform_metric_field& field, const Import&, const Reference& reference,
+template <class Execution, class Input, class Reference, class Use>
+void with_vertex_metric(const Execution&, const Uniform_metric_field& field, const Input&, const Reference& reference,
                         const Use& use)
 {
   use(std::vector<double>(reference.points.size(), field.size));
 }
 
-template <class Execution, class Function, class Import, class Reference, class Use>
-void with_vertex_metric(const Execution& execution, const Analytic_metric_field<Function>& field, const Import&,
+template <class Execution, class Function, class Input, class Reference, class Use>
+void with_vertex_metric(const Execution& execution, const Analytic_metric_field<Function>& field, const Input&,
                         const Reference& reference, const Use& use)
 {
   std::vector<std::decay_t<decltype(field.function(std::declval<const Vector_3&>()))>> values(reference.points.size());
@@ -147,18 +159,47 @@ inline double gradation(const Curvature_metric_field& field)
   return field.anisotropic ? default_gradation : default_gradation_of_isotropic_curvature;
 }
 
-template <class Execution, class Import, class Reference, class Use>
-void with_vertex_metric(const Execution& execution, const Curvature_metric_field& field, const Import&,
+/// The deviations above the faces of the input, where the field aims at the `common` one; empty: everywhere at that.
+inline std::vector<double> deviations_of_faces(const Curvature_metric_field& field, double common,
+                                               std::vector<double> asked)
+{
+  if (field.vertices > 0) return {};
+  std::replace(asked.begin(), asked.end(), 0.0, common);
+  return asked;
+}
+
+inline double least_deviation(double common, const std::vector<double>& of_faces)
+{
+  return of_faces.empty() ? common : *std::min_element(of_faces.begin(), of_faces.end());
+}
+
+/// Scales tensors, which are for the `common` deviation, to the smallest one of the faces around each vertex.
+template <class Execution>
+void scale_to_deviations(const Execution& execution, const Mesh_view& mesh, double common,
+                         const std::vector<double>& of_faces, std::vector<Metric_tensor_3>& tensors)
+{
+  for_each_index(execution, tensors.size(), [&](std::size_t v) {
+    double least = std::numeric_limits<double>::infinity();
+    mesh.for_each_outgoing(Index(v), [&](Index h) { least = (std::min)(least, of_faces[Mesh_view::face(h)]); });
+    tensors[v] = common / least * tensors[v];
+  });
+}
+
+template <class Execution, class Input, class Reference, class Use>
+void with_vertex_metric(const Execution& execution, const Curvature_metric_field& field, const Input& input,
                         const Reference& reference, const Use& use)
 {
   check_anisotropy(field.max_anisotropy);
   const double diagonal = diagonal_of_bounding_box(reference.points), tolerance = field.relative_tolerance * diagonal;
+  const std::vector<double> deviations = deviations_of_faces(field, tolerance, input.deviations);
   const double hmax = field.hmax > 0 ? field.hmax : 0.1 * diagonal;
+  const double hmin = field.hmin > 0 ? field.hmin : (std::min)(least_deviation(tolerance, deviations), hmax);
   const Size_bounds bounds = field.vertices > 0 ? bounds_of_scaled_metric(field.hmin, field.hmax, diagonal)
-                                                : Size_bounds(field.hmin > 0 ? field.hmin : (std::min)(tolerance, hmax), hmax);
+                                                : Size_bounds(hmin, hmax);
   Scalable_metric metric{curvature_tensors(execution, reference, field.anisotropic ? field.max_anisotropy : 1,
                                            field.noisy ? Jet_fit::noisy : Jet_fit::exact),
                          bounds, gradation(field)};
+  if (!deviations.empty()) scale_to_deviations(execution, reference.mesh, tolerance, deviations, metric.tensors);
   if (wants_proximity(field)) metric.fixed = proximity_tensors(execution, reference, bounds);
   const double scale = 1 / (6 * tolerance);
   if (field.anisotropic) use_scaled<Metric_tensor_3>(execution, reference, metric, field.vertices, scale, use);
@@ -172,15 +213,15 @@ inline Metric_tensor_3 resolving_hessian(const Hessian_estimate& hessian)
   return (1 + 4 * hessian.unexplained) * hessian.tensor;
 }
 
-template <class Execution, class VertexScalarMap, class Import, class Reference, class Use>
+template <class Execution, class VertexScalarMap, class Input, class Reference, class Use>
 void with_vertex_metric(const Execution& execution, const Solution_metric_field<VertexScalarMap>& field,
-                        const Import& imported, const Reference& reference, const Use& use)
+                        const Input& input, const Reference& reference, const Use& use)
 {
   check_anisotropy(field.max_anisotropy);
   if (!(field.norm >= 1)) throw Invalid_parameter_error("the norm must be at least 1");
   const Interpolation_norm norm(field.norm);
-  std::vector<double> values(imported.vertices.size());
-  for (std::size_t v = 0; v < values.size(); ++v) values[v] = CGAL::to_double(get(field.values, imported.vertices[v]));
+  std::vector<double> values(input.vertices.size());
+  for (std::size_t v = 0; v < values.size(); ++v) values[v] = CGAL::to_double(get(field.values, input.vertices[v]));
   const Corner_jets jets = estimate_jets(execution, reference.mesh, reference.points);
   const Buffer<Hessian_estimate> hessians =
     estimate_hessians(execution, reference.mesh, reference.points, jets, values);
@@ -194,17 +235,17 @@ void with_vertex_metric(const Execution& execution, const Solution_metric_field<
 }
 
 /// Any readable property map of the vertices, with sizes or `Metric_tensor_3` as values.
-template <class Execution, class PropertyMap, class Import, class Reference, class Use>
-void with_vertex_metric(const Execution&, const PropertyMap& map, const Import& imported, const Reference&, const Use& use)
+template <class Execution, class PropertyMap, class Input, class Reference, class Use>
+void with_vertex_metric(const Execution&, const PropertyMap& map, const Input& input, const Reference&, const Use& use)
 {
-  const std::size_t n = imported.vertices.size();
+  const std::size_t n = input.vertices.size();
   if constexpr (std::is_same_v<typename boost::property_traits<PropertyMap>::value_type, Metric_tensor_3>) {
     std::vector<Metric_tensor_3> tensors(n);
-    for (std::size_t v = 0; v < n; ++v) tensors[v] = get(map, imported.vertices[v]);
+    for (std::size_t v = 0; v < n; ++v) tensors[v] = get(map, input.vertices[v]);
     use(std::move(tensors));
   } else {
     std::vector<double> sizes(n);
-    for (std::size_t v = 0; v < n; ++v) sizes[v] = CGAL::to_double(get(map, imported.vertices[v]));
+    for (std::size_t v = 0; v < n; ++v) sizes[v] = CGAL::to_double(get(map, input.vertices[v]));
     use(std::move(sizes));
   }
 }
@@ -261,9 +302,9 @@ Intersection_metric_field<Fields...> as_part(const Intersection_metric_field<Fie
   return part;
 }
 
-template <class Execution, class... Fields, class Import, class Reference, class Use>
+template <class Execution, class... Fields, class Input, class Reference, class Use>
 void with_vertex_metric(const Execution& execution, const Intersection_metric_field<Fields...>& field,
-                        const Import& imported, const Reference& reference, const Use& use)
+                        const Input& input, const Reference& reference, const Use& use)
 {
   std::vector<std::vector<Metric_tensor_3>> asked; // by each field
   bool anisotropic = false;
@@ -272,7 +313,7 @@ void with_vertex_metric(const Execution& execution, const Intersection_metric_fi
     asked.push_back(checked_tensors(execution, values));
   };
   std::apply([&](const auto&... f) {
-    (with_vertex_metric(execution, as_part(f, 0), imported, reference, add), ...);
+    (with_vertex_metric(execution, as_part(f, 0), input, reference, add), ...);
   }, field.fields);
 
   const double diagonal = diagonal_of_bounding_box(reference.points);
@@ -302,16 +343,17 @@ double attainable_number_of_vertices(const Execution& execution, const Field& fi
 }
 
 /// What a field asks for beyond its metric, of which the `values` are those at the vertices.
-template <class Execution, class Field, class Reference, class Value>
-Metric_aims aims(const Execution& execution, const Field& field, const Reference& reference,
-                 const std::vector<Value>& values)
+template <class Execution, class Field, class Input, class Reference, class Value>
+Metric_aims aims(const Execution& execution, const Field& field, [[maybe_unused]] const Input& input,
+                 const Reference& reference, const std::vector<Value>& values)
 {
   Metric_aims result;
   result.number_of_vertices = attainable_number_of_vertices(execution, field, reference, values);
   if constexpr (std::is_same_v<Field, Curvature_metric_field>) {
     if (field.vertices > 0) return result;
     result.deviation = field.relative_tolerance * diagonal_of_bounding_box(reference.points);
-    result.hmin = field.hmin > 0 ? field.hmin : result.deviation;
+    result.deviation_of_face = deviations_of_faces(field, result.deviation, input.deviations);
+    result.hmin = field.hmin > 0 ? field.hmin : least_deviation(result.deviation, result.deviation_of_face);
     result.gradation = gradation(field);
   }
   return result;
@@ -361,16 +403,16 @@ double gradation_within(const Field& field)
   else return default_gradation;
 }
 
-/// `with_background(execution, field, imported, reference, use)` calls `use(background)` with the metric background
+/// `with_background(execution, field, input, reference, use)` calls `use(background)` with the metric background
 /// that `field` stands for on the reference surface.
-template <class Execution, class Import, class Reference, class Use>
-void with_background(const Execution&, const Uniform_metric_field& field, const Import&, const Reference&, const Use& use)
+template <class Execution, class Input, class Reference, class Use>
+void with_background(const Execution&, const Uniform_metric_field& field, const Input&, const Reference&, const Use& use)
 {
   use(Metric_background<Isotropic_metric>(field.size));
 }
 
-template <class Execution, class Function, class Import, class Reference, class Use>
-void with_background(const Execution&, const Analytic_metric_field<Function>& field, const Import&, const Reference&,
+template <class Execution, class Function, class Input, class Reference, class Use>
+void with_background(const Execution&, const Analytic_metric_field<Function>& field, const Input&, const Reference&,
                      const Use& use)
 {
   using Value = std::decay_t<decltype(field.function(std::declval<const Vector_3&>()))>;
@@ -380,41 +422,41 @@ void with_background(const Execution&, const Analytic_metric_field<Function>& fi
     use(Metric_background<Isotropic_metric>(Metric_background<Isotropic_metric>::Formula(field.function)));
 }
 
-template <class Execution, class Field, class Import, class Reference, class Use>
-void with_background(const Execution& execution, const Field& field, const Import& imported, const Reference& reference,
+template <class Execution, class Field, class Input, class Reference, class Use>
+void with_background(const Execution& execution, const Field& field, const Input& input, const Reference& reference,
                      const Use& use)
 {
-  with_vertex_metric(execution, field, imported, reference, [&](auto values) {
+  with_vertex_metric(execution, field, input, reference, [&](auto values) {
     using Value = typename decltype(values)::value_type;
     using Metric = std::conditional_t<std::is_same_v<Value, Metric_tensor_3>, Anisotropic_metric, Isotropic_metric>;
-    const Metric_aims asked = aims(execution, field, reference, values);
+    const Metric_aims asked = aims(execution, field, input, reference, values);
     use(Metric_background<Metric>(execution, std::move(values), asked));
   });
 }
 
 /// The same, of a metric within `bounds`.
-template <class Execution, class Field, class Import, class Reference, class Use>
-void with_background_within(const Execution& execution, const Field& field, const Import& imported,
+template <class Execution, class Field, class Input, class Reference, class Use>
+void with_background_within(const Execution& execution, const Field& field, const Input& input,
                             const Reference& reference, const Vertex_size_bounds& bounds, const Use& use)
 {
-  if (bounds.empty()) return with_background(execution, field, imported, reference, use);
-  with_vertex_metric(execution, field, imported, reference, [&](auto values) {
+  if (bounds.empty()) return with_background(execution, field, input, reference, use);
+  with_vertex_metric(execution, field, input, reference, [&](auto values) {
     using Value = typename decltype(values)::value_type;
     using Metric = std::conditional_t<std::is_same_v<Value, Metric_tensor_3>, Anisotropic_metric, Isotropic_metric>;
     check_metric(execution, values);
     put_within(execution, reference, bounds, gradation_within(field), values);
-    const Metric_aims asked = aims(execution, field, reference, values);
+    const Metric_aims asked = aims(execution, field, input, reference, values);
     use(Metric_background<Metric>(execution, std::move(values), asked));
   });
 }
 
 /// The same, of the field that a variant holds: what is asked for may be chosen while the program runs.
-template <class Execution, class... Fields, class Import, class Reference, class Use>
-void with_background_within(const Execution& execution, const std::variant<Fields...>& chosen, const Import& imported,
+template <class Execution, class... Fields, class Input, class Reference, class Use>
+void with_background_within(const Execution& execution, const std::variant<Fields...>& chosen, const Input& input,
                             const Reference& reference, const Vertex_size_bounds& bounds, const Use& use)
 {
   std::visit([&](const auto& field) {
-    with_background_within(execution, field, imported, reference, bounds, use);
+    with_background_within(execution, field, input, reference, bounds, use);
   }, chosen);
 }
 
