@@ -72,6 +72,8 @@ struct Options
   // the surface
   bool flat = false;
   bool fit = false;
+  bool avoid_self_intersections = false;
+  bool count_self_intersections = false;
   double shape_weight = 0;
   double protected_gradation = -1; ///< negative if not given
   bool wants_face_origin = false;

@@ -53,6 +53,12 @@ void translate(const std::exception_ptr& thrown, void*)
     error.attr("tolerance") = e.tolerance();
     raise(error);
   }
+  catch (const SMA::Self_intersection_error& e)
+  {
+    nb::object error = exception("Self_intersection_error", e);
+    error.attr("pairs") = e.pairs();
+    raise(error);
+  }
   catch (const SMA::Mesh_too_large_error& e)
   {
     nb::object error = exception("Mesh_too_large_error", e);

@@ -94,7 +94,8 @@ Options options_of(const nb::dict& from)
   read("vertices", o.vertices)("anisotropic", o.anisotropic)("max_anisotropy", o.max_anisotropy)("noisy", o.noisy);
   read("norm", o.norm)("gradation", o.gradation)("hmin", o.hmin)("hmax", o.hmax);
   read("detect_features", o.detect_features)("feature_angle", o.feature_angle)("smooth_borders", o.smooth_borders);
-  read("flat", o.flat)("fit", o.fit)("shape_weight", o.shape_weight)("tolerance", o.tolerance);
+  read("flat", o.flat)("fit", o.fit)("avoid_self_intersections", o.avoid_self_intersections)(
+    "count_self_intersections", o.count_self_intersections)("shape_weight", o.shape_weight)("tolerance", o.tolerance);
   read("protected_gradation", o.protected_gradation)("wants_face_origin", o.wants_face_origin);
   read("normals", o.normals)("shape_operators", o.shape_operators);
   read("max_vertices", o.max_vertices)("max_normal_deviation", o.max_normal_deviation)("max_distance", o.max_distance);

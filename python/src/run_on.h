@@ -94,6 +94,8 @@ public:
                               .tolerance(tolerance)
                               .surface_reconstruction(Reconstruction())
                               .fit_to_surface(options_.fit)
+                              .avoid_self_intersections(options_.avoid_self_intersections)
+                              .count_self_intersections(options_.count_self_intersections)
                               .shape_weight_of_fit(given(options_.shape_weight, SMA::default_shape_weight))
                               .visitor(std::ref(teller_));
     const auto start = std::chrono::steady_clock::now();

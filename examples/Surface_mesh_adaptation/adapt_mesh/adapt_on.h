@@ -72,6 +72,8 @@ SMA::Adaptation_report adapt_on(const Options& options, Constrained_mesh& mesh, 
       .number_of_iterations(options.rounds > 0 ? unsigned(options.rounds) : SMA::default_number_of_rounds)
       .output_metric_map(output_metric)
       .tolerance(tolerance)
+      .avoid_self_intersections(options.no_self_intersections)
+      .count_self_intersections(!options.no_intersection_count)
       .surface_reconstruction(Reconstruction())
       .fit_to_surface(options.fit)
       .shape_weight_of_fit(options.shape_weight.value_or(SMA::default_shape_weight))

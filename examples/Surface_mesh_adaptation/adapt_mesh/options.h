@@ -38,6 +38,8 @@ struct Options
   int max_vertices = 0;
   std::optional<double> gradation;
   double tolerance = 0;
+  bool no_self_intersections = false;
+  bool no_intersection_count = false;
   bool flat = false;
   bool fit = false;
   std::optional<double> shape_weight;
@@ -120,6 +122,10 @@ inline po::options_description described_options(Options& o)
     ("tolerance", po::value(&o.tolerance)->value_name("EPS"),
      "keep the Hausdorff distance between input and output below EPS times the diagonal of the bounding box, and certify "
      "it; if nothing else says how fine the mesh is to be, the curvature does such that this is likely")
+    ("no-self-intersections", po::bool_switch(&o.no_self_intersections),
+     "no faces of the output meet where those of the input do not; sizes get finer where sheets are too near each other")
+    ("no-intersection-count", po::bool_switch(&o.no_intersection_count),
+     "do not count the pairs of faces that intersect, in the input and in the output")
     ("flat", po::bool_switch(&o.flat),
      "the triangles of the input are the surface, instead of smooth patches through their vertices")
     ("fit", po::bool_switch(&o.fit),

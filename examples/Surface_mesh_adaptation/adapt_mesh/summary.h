@@ -44,6 +44,10 @@ inline void print_summary(const SMA::Adaptation_report& report, const Mesh& inpu
   if (report.tolerance > 0)
     std::printf("certified %.3g, %.3g of the tolerance\n", report.certified_distance,
                 report.certified_distance / report.tolerance);
+  const SMA::Self_intersection_counts& intersections = report.self_intersections;
+  if (intersections.are_counted)
+    std::printf("intersect %zu -> %zu pairs of faces (counted in %.2g s)\n", intersections.before, intersections.after,
+                intersections.seconds);
   std::printf("time      %.3g s, %s, %d thread%s\n", report.seconds, report.execution.c_str(), report.threads,
               report.threads == 1 ? "" : "s");
   for (const std::string& sentence : report.repairs) std::printf("repaired  %s\n", sentence.c_str());

@@ -286,6 +286,20 @@ step at the end: if anything throws, it is as it was.
     \cgalParamType{`double`, a length, positive}
     \cgalParamDefault{infinity, that is none}
   \cgalParamNEnd
+  \cgalParamNBegin{avoid_self_intersections}
+    \cgalParamDescription{whether no faces of the result meet, but for those over faces of the input that do or that are
+                          beside such. Where sheets are nearer to each other than the sizes allow, these get finer, also
+                          than a smallest size, and where the gap is too narrow for that, triangles of the input stay.
+                          All may be done again, up to twelve times, and the visitor sees the rounds again. See
+                          `self_intersections.h`}
+    \cgalParamType{`bool`}
+    \cgalParamDefault{`false`}
+  \cgalParamNEnd
+  \cgalParamNBegin{count_self_intersections}
+    \cgalParamDescription{whether the report has the numbers of pairs of faces that meet, before and after}
+    \cgalParamType{`bool`}
+    \cgalParamDefault{`false`}
+  \cgalParamNEnd
   \cgalParamNBegin{maximum_number_of_vertices}
     \cgalParamDescription{a metric that asks for more vertices is refused before anything is split, and refinement stops
                           before there are more}
@@ -303,7 +317,7 @@ step at the end: if anything throws, it is as it was.
 
 \throws Invalid_input_error one of those derived from it, if the mesh, the metric or a map is not as above;
         `Empty_mesh_error`; `Invalid_parameter_error`; `Mesh_too_large_error`; `Tolerance_error` if the tolerance could not
-        be kept. All derive from `Adaptation_error`. What maps, formulas and visitors throw passes through. The mesh is as
+        be kept; `Self_intersection_error` if faces that meet could not be avoided. All derive from `Adaptation_error`. What maps, formulas and visitors throw passes through. The mesh is as
         it was in any case.
 \complexity O(n log n) time, O(n) memory, for n the larger of the numbers of input and output vertices
 */

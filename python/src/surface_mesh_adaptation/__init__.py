@@ -19,11 +19,12 @@ from .errors import (
     Non_manifold_vertex_error,
     Non_simplicial_edge_error,
     Non_triangular_face_error,
+    Self_intersection_error,
     Tolerance_error,
 )
 from .functions import adapt, refine, regularize, relocate, simplify, swap
 from .progress import Progress
-from .report import KernelReport, MeshStatistics, Report
+from .report import KernelReport, MeshStatistics, Report, SelfIntersectionCounts
 from .result import Result
 from .tools import (
     bound,
@@ -58,6 +59,8 @@ __all__ = [
     "Progress",
     "Report",
     "Result",
+    "SelfIntersectionCounts",
+    "Self_intersection_error",
     "Tolerance_error",
     "adapt",
     "bound",

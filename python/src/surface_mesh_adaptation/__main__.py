@@ -51,6 +51,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--smooth-borders", action="store_true", help="keep the outlines of the planes of a CAD tessellation")
     add("--tolerance", metavar="EPS", type=float, help="certify that the distance between input and output is below "
         "EPS times the diagonal of the bounding box")  # fmt: skip
+    add("--no-self-intersections", dest="avoid_self_intersections", action="store_true",
+        help="no triangles of the output meet where those of the input do not")  # fmt: skip
     add("--flat", action="store_true", help="the triangles of the input are the surface")
     add("--fit", action="store_true", help="let the faces run through the surface")
     add("--shape-weight", metavar="W", type=float, help="what the shape of the faces counts with --fit, up to 1")

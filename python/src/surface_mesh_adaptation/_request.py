@@ -37,7 +37,17 @@ _NUMBERS: dict[str, tuple[type, str, Any]] = {
     "max_normal_deviation": (float, "an angle in degrees, above 0 and up to 180", lambda a: 0 < a <= 180),
     "shape_weight": (float, "a number above 0 and up to 1", lambda w: 0 < w <= 1),
 }
-_SWITCHES = ("anisotropic", "noisy", "detect_features", "smooth_borders", "fit", "weld", "repair")
+_SWITCHES = (
+    "anisotropic",
+    "noisy",
+    "detect_features",
+    "smooth_borders",
+    "fit",
+    "avoid_self_intersections",
+    "count_self_intersections",
+    "weld",
+    "repair",
+)
 _CHOICES = {"reconstruction": ("patches", "flat"), "execution": ("sequential", "tbb", "openmp")}
 _ARRAYS = (
     "size",

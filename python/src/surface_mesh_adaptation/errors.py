@@ -94,3 +94,15 @@ class Tolerance_error(Adaptation_error, RuntimeError):
 
     distance: float
     tolerance: float
+
+
+class Self_intersection_error(Adaptation_error, RuntimeError):
+    """Triangles that meet where those of the input do not could not be avoided.
+
+    Attributes
+    ----------
+    pairs : int
+        The number of pairs of such triangles.
+    """
+
+    pairs: int

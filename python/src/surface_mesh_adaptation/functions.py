@@ -155,6 +155,8 @@ def adapt(
     normals: Array | None = None,
     shape_operators: Array | None = None,
     tolerance: float | None = None,
+    avoid_self_intersections: bool = False,
+    count_self_intersections: bool = False,
     max_vertices: int | None = None,
     iterations: int | None = None,
     execution: str | None = None,
@@ -251,6 +253,11 @@ def adapt(
     tolerance : float, optional
         Certifies that the Hausdorff distance between input and output is below this fraction of the diagonal of the
         bounding box.
+    avoid_self_intersections : bool
+        Whether no triangles of the result may meet where those of the input do not. Sizes get finer where sheets are too
+        near each other for them; where the gap is too narrow for that, triangles of the input stay.
+    count_self_intersections : bool
+        Whether the report has the number of pairs of triangles that meet, before and after.
     max_vertices : int, optional
         Refuse what needs more vertices than these.
     iterations : int, optional

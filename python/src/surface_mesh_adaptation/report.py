@@ -52,6 +52,15 @@ class KernelReport:
 
 
 @dataclass
+class SelfIntersectionCounts:
+    """Pairs of triangles that meet in more than the vertices and edges that they share."""
+
+    before: int = 0  #: in the input
+    after: int = 0  #: in the result
+    seconds: float = 0.0  #: that counting took
+
+
+@dataclass
 class Report:
     """The report of an adaptation."""
 
@@ -70,6 +79,7 @@ class Report:
     tolerance: float = 0.0  #: a length; 0: none was asked for
     certified_distance: float = 0.0  #: if one was: an upper bound of the Hausdorff distance
     deviation: float = 0.0  #: with `curvature`: largest distance from the surface at some places of each face
+    self_intersections: SelfIntersectionCounts | None = None  #: if they were counted
     _result: Result | None = field(default=None, repr=False, compare=False)
 
     @classmethod
@@ -79,6 +89,8 @@ class Report:
         report.initial = _of(MeshStatistics, values.get("initial", {}))
         report.final = _of(MeshStatistics, values.get("final", {}))
         report.after_round = [_of(MeshStatistics, s) for s in values.get("after_round", [])]
+        counts = values.get("self_intersections")
+        report.self_intersections = _of(SelfIntersectionCounts, counts) if counts else None
         report.kernels = [_of(KernelReport, k) for k in values.get("kernels", [])]
         return report
 

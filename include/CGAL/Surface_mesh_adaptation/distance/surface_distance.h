@@ -127,16 +127,16 @@ void split(const Triangle_piece& piece, const Triangle_points& t, const Use& use
 
 } // namespace internal
 
-/// Whether all points of `t` lie within `limit(i)` of a triangle `i` of the surface. `false` may be wrong, for no more than
-/// `max_pieces` pieces of `t` are looked at. `guesses` are places of triangles of the surface near the corners.
-template <class Limit, class Guesses>
-bool is_within(const Triangle_tree& tree, const Triangle_points& t, const Limit& limit, const Guesses& guesses,
+/// Whether all points of `t` lie within `limit` of the surface. `false` may be wrong, for no more than `max_pieces`
+/// pieces of `t` are looked at. `guesses` are places of triangles of the surface near the corners.
+template <class Guesses>
+bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit, const Guesses& guesses,
                std::size_t max_pieces)
 {
-  const auto squared_limit = [&](std::size_t i) { return limit(i) * limit(i); };
+  const double squared_limit = limit * limit;
   Ring<internal::Triangle_piece> pieces{{{t.begin(), t.end()}, 0}};
   for (const std::size_t guess : guesses) {
-    if (pieces[0].largest_squared_distance(tree[guess]) <= squared_limit(guess)) return true;
+    if (pieces[0].largest_squared_distance(tree[guess]) <= squared_limit) return true;
     pieces[0].guess = guess;
   }
   for (std::size_t looked_at = 0; !pieces.empty(); ++looked_at) {
@@ -145,17 +145,16 @@ bool is_within(const Triangle_tree& tree, const Triangle_points& t, const Limit&
     pieces.pop_back();
     const Vector_3 center = piece.center();
     std::size_t near = tree.towards(center, piece.guess); // any triangle that is near enough will do
-    if (squared_distance_to_triangle(center, tree[near]) > squared_limit(near)) {
+    if (squared_distance_to_triangle(center, tree[near]) > squared_limit) {
       const auto nearest = tree.nearest(center, near);
-      if (nearest.squared_distance > squared_limit(nearest.triangle)) return false;
+      if (nearest.squared_distance > squared_limit) return false;
       near = nearest.triangle;
     }
     const Triangle_points& to = tree[near];
-    const double squared = squared_limit(near);
-    if (piece.largest_squared_distance(to) <= squared) continue;
+    if (piece.largest_squared_distance(to) <= squared_limit) continue;
     internal::split(piece, to, [&](internal::Triangle_piece part) {
       part.guess = near;
-      if (part.largest_squared_distance(to) > squared) pieces.push_back(part);
+      if (part.largest_squared_distance(to) > squared_limit) pieces.push_back(part);
     });
   }
   return true;

@@ -186,6 +186,7 @@ private:
       const std::vector<Face_pair> pairs = guard.new_pairs(execution_, surface_);
       if (pairs.empty()) break;
       guard.find_gaps(execution_, surface_);
+      if (!guard.can_be_parted(surface_, pairs)) break;
       if (i == 0) surface_.bound_distance(execution_, guard.bounds_at_vertices(execution_));
       work_where(surface_.tighten_metric(execution_, guard.size_factors(surface_, pairs), limits_at_gaps));
       if (extent_ == 0) break;

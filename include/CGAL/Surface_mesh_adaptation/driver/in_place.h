@@ -124,6 +124,9 @@ public:
     }
     report_.threads = execution_.concurrency();
     report_.self_intersections = intersections_;
+    if (intersections_.after > intersections_.before)
+      report_.warnings.push_back("faces intersect that did not, or in more pairs than before: ask to "
+                                 "`avoid_self_intersections` (`--no-self-intersections`)");
     return report_;
   }
 
@@ -141,7 +144,7 @@ private:
     domain_.check_fans(execution_, imported_, numbers);
     values_.emplace(domain_, imported_, np_);
     with_input_numbers(domain_.graph(), imported_, [&] { given_ = given_jets(imported_, np_); });
-    if (tolerance_of(np_) < std::numeric_limits<double>::infinity()) make_tolerance();
+    make_tolerance();
     surroundings_ =
       domain_.surroundings(points_, [this](const Mesh_view& mesh, Index f) { return values_->is_inside(mesh, f); });
     intersections_.are_counted = choose(np_, internal_np::count_self_intersections, false);
@@ -160,8 +163,9 @@ private:
   void make_tolerance()
   {
     const double distance = tolerance_of(np_);
-    const Triangle_tree input(execution_, imported_.mesh, imported_.points);
-    tolerance_ = Tolerance{distance, share_of_operations * distance, input, {}};
+    if (distance == std::numeric_limits<double>::infinity()) return;
+    tolerance_ = Tolerance{distance, share_of_operations * distance,
+                           Triangle_tree(execution_, imported_.mesh, imported_.points)};
   }
 
   /// Adapts the mesh to the metric of `background` and writes it. Returns `false`, with nothing written, if all is to be
@@ -176,11 +180,8 @@ private:
       if (guard_) guard(*surface);
       return adapt(*surface);
     };
-    for (;;) {
-      report_ = tolerance_ && tolerance_->is_asked() ? adapt_within(*tolerance_, attempt) : attempt();
-      if (!guard_ || accepts(*surface)) break;
-      if (guard_->keeps_faces()) return false;
-    }
+    report_ = tolerance_ ? adapt_within(*tolerance_, attempt) : attempt();
+    if (guard_ && !accepts(*surface)) return false;
     write(reference, *surface);
     surface->release(execution_);
     return true;
@@ -208,7 +209,7 @@ private:
       return kernels_(execution_, surface);
     }();
     if (guard_ || intersections_.are_counted) round_to_points<Point>(execution_, surface);
-    if (!tolerance_ || !tolerance_->is_asked()) return result;
+    if (!tolerance_) return result;
     const Effect_of_interruption once(execution_.interruption(), effect_after(result));
     result.tolerance = tolerance_->distance;
     result.certified_distance = certified_distance(execution_, *tolerance_, surface);
@@ -224,10 +225,9 @@ private:
     const std::vector<Face_pair> pairs = guard_->new_pairs(execution_, surface);
     if (pairs.empty()) return true;
     if (report_.stopped) throw Self_intersection_error(pairs.size());
-    if (!tolerance_) make_tolerance();
     limits_ = surface.limits();
     guard_->find_gaps(execution_, surface);
-    guard_->ask_more(surface, pairs, *tolerance_);
+    guard_->keep_faces(surface, pairs);
     return false;
   }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // No face of an adapted mesh is to meet another one where the input had no faces that do. Those that do are found by exact
-// predicates. Where the driver's finer sizes do not part them, all is done again: within bounds of the distance from the
-// input where sheets are near each other, see gap_bounds.h, then within tighter ones where faces meet, and then with the
-// triangles of the input kept there, ever more of them. The input has no new intersections, so that this comes to an end.
+// predicates. The surface is then made to bulge by less than the gaps there, and sizes get finer, until the faces come
+// nearer to the input than these. Where gaps are too narrow for that, all is done again with the triangles of the input kept
+// there, ever more of them: these do not meet.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SELF_INTERSECTION_GUARD_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SELF_INTERSECTION_GUARD_H
@@ -12,10 +12,10 @@
 #include <CGAL/Surface_mesh_adaptation/distance/self_intersections.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
-#include <CGAL/Surface_mesh_adaptation/kernels/Tolerance.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/metric/metric.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/vertex_normals.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,46 +89,56 @@ public:
   }
 
   /// What the sizes at the vertices of `surface` are to be multiplied with so that the faces of `pairs` come nearer to the
-  /// input than half the gaps there: distances go with the squares of sizes. \pre gaps were found
+  /// input than half the gaps there: distances go with the squares of sizes. 1 where no size can do that. \pre gaps were found
   template <class Surface>
   std::vector<double> size_factors(const Surface& surface, const std::vector<Face_pair>& pairs) const
   {
     constexpr double strongest_step = 0.35, weakest_step = 0.8;
     std::vector<double> factors(surface.mesh.number_of_vertices(), 1);
-    for (const Face_pair& pair : pairs)
-      for (const Index f : pair) {
-        const double ratio = share_of_distance(surface, f);
-        if (ratio > 1 && share_of_distance(surface, f == pair[0] ? pair[1] : pair[0]) < 1) continue; // it is the other one
-        const double factor = std::clamp(std::sqrt(ratio), strongest_step, weakest_step);
-        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-          double& at_corner = factors[surface.mesh.source(h)];
-          at_corner = (std::min)(at_corner, factor);
+    for (const Face_pair& pair : pairs) {
+      const double wanted[] = {size_factor(surface, pair[0]), size_factor(surface, pair[1])};
+      for (const std::size_t i : {0, 1}) {
+        if (wanted[i] == 0 || (wanted[i] > 1 && wanted[1 - i] < 1)) continue; // the other one is too far away
+        for (Index h = 3 * pair[i]; h < 3 * pair[i] + 3; ++h) {
+          double& factor = factors[surface.mesh.source(h)];
+          factor = (std::min)(factor, std::clamp(wanted[i], strongest_step, weakest_step));
         }
       }
+    }
     return factors;
   }
 
-  /// Asks more of the next attempt, by `tolerance` or `constrained()`, after `pairs` met in `surface`.
-  /// \pre gaps were found \throws Self_intersection_error if all was tried
+  /// Whether finer sizes can part most of `pairs`. \pre gaps were found
   template <class Surface>
-  void ask_more(const Surface& surface, const std::vector<Face_pair>& pairs, Tolerance& tolerance)
+  bool can_be_parted(const Surface& surface, const std::vector<Face_pair>& pairs) const
   {
-    if (attempts_ == max_attempts) throw Self_intersection_error(pairs.size());
-    if (attempts_ > 0)
-      for (const Face_pair& pair : pairs)
-        for (const Index f : pair) tighten(surface, f);
-    tolerance.bounds = gaps_->bounds;
-    ++attempts_;
-    if (keeps_faces()) is_kept_ = with_faces_around(is_kept_);
+    const auto n = std::count_if(pairs.begin(), pairs.end(), [&](const Face_pair& pair) {
+      return size_factor(surface, pair[0]) > 0 && size_factor(surface, pair[1]) > 0;
+    });
+    return 2 * std::size_t(n) > pairs.size();
   }
 
-  /// Whether triangles of the input have to be kept from now on.
-  bool keeps_faces() const { return attempts_ > attempts_with_bounds; }
+  /// Has the faces of the input below `pairs`, and ever more around these, kept in the next attempt.
+  /// \throws Self_intersection_error if that was tried often enough
+  template <class Surface>
+  void keep_faces(const Surface& surface, const std::vector<Face_pair>& pairs)
+  {
+    if (++attempts_ > max_attempts) throw Self_intersection_error(pairs.size());
+    std::size_t number_of_new = 0;
+    for (const Face_pair& pair : pairs)
+      for (const Index f : pair)
+        for (const Index face : faces_below(surface, f)) {
+          number_of_new += is_kept_[face] == 0 ? 1 : 0;
+          is_kept_[face] = 1;
+        }
+    const int rings = number_of_new == 0 ? 1 : (std::max)(0, attempts_ - max_attempts / 2);
+    for (int i = 0; i < rings; ++i) is_kept_ = with_faces_around(is_kept_);
+  }
 
   /// `features`, with the edges of all faces that have to be kept.
   Feature_parameters constrained(Feature_parameters features) const
   {
-    if (!keeps_faces()) return features;
+    if (attempts_ == 0) return features;
     features.halfedge_constraint.resize(mesh_.number_of_halfedges(), Edge_constraint::none);
     for (Index h = 0; h < mesh_.number_of_halfedges(); ++h) {
       const Index t = mesh_.twin[h];
@@ -139,8 +149,7 @@ public:
   }
 
 private:
-  static constexpr int attempts_with_bounds = 3;
-  static constexpr int max_attempts = 10;
+  static constexpr int max_attempts = 12;
 
   template <class Execution>
   void find_old(const Execution& execution)
@@ -190,10 +199,10 @@ private:
     const double radius = (std::max)({(t[0] - middle).norm(), (t[1] - middle).norm(), (t[2] - middle).norm()});
     for (std::size_t i = 0; i < faces.size(); ++i)
       for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
-        const Index t = mesh_.twin[h];
-        if (t != no_index &&
-            squared_distance_to_triangle(middle, corners_from(mesh_, points_, t)) <= radius * radius)
-          add(Mesh_view::face(t));
+        const Index twin = mesh_.twin[h];
+        if (twin != no_index &&
+            squared_distance_to_triangle(middle, corners_from(mesh_, points_, twin)) <= radius * radius)
+          add(Mesh_view::face(twin));
       }
     return faces;
   }
@@ -210,30 +219,37 @@ private:
     return std::sqrt(largest);
   }
 
-  /// The distance that operations should keep below the face `f` of `surface`, in that of the face.
+  /// What the edges of the face `f` of `surface` are to be multiplied with so that it comes as near to the input as it
+  /// should; 0 if the facets of the input below are mostly too coarse for that themselves.
   template <class Surface>
-  double share_of_distance(const Surface& surface, Index f) const
+  double size_factor(const Surface& surface, Index f) const
   {
-    double bound = infinity;
+    double least = infinity;
+    std::size_t number_of_coarse = 0;
     const std::vector<Index> below = faces_below(surface, f);
-    for (const Index face : below) bound = (std::min)(bound, gaps_->bounds[gaps_->tree.place(face)]);
-    return bound / distance_from_input(surface, f, below[0]);
+    for (const Index face : below) {
+      const double bound = gaps_->bounds[gaps_->tree.place(face)];
+      least = (std::min)(least, bound);
+      if (bulge(surface.reference().mesh, face) > largest_bulge * bound) ++number_of_coarse;
+    }
+    return 2 * number_of_coarse > below.size() ? 0 : std::sqrt(least / distance_from_input(surface, f, below[0]));
   }
 
-  /// Lets operations leave the faces of the input below the face `f` of `surface` by a third of what that leaves them, or
-  /// of what they might up to now; in the end not at all.
-  template <class Surface>
-  void tighten(const Surface& surface, Index f)
+  /// About how far a smooth surface through the corners of the face `f` of the input may bulge, by the angles with the faces
+  /// beside it. `mesh` has the features of the input.
+  double bulge(const Mesh_view& mesh, Index f) const
   {
-    constexpr double factor = 1.0 / 3;
-    const std::vector<Index> below = faces_below(surface, f);
-    const double distance = distance_from_input(surface, f, below[0]);
-    for (const Index face : below) {
-      double& bound = gaps_->bounds[gaps_->tree.place(face)];
-      bound = factor * (std::min)(bound, distance);
-      if (attempts_ >= attempts_with_bounds) is_kept_[face] = 1;
+    double largest = 0;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      if (mesh.is_border(h) || mesh.is_feature(h)) continue;
+      const Vector_3 n = face_normal(mesh, points_, h).normalized();
+      const Vector_3 behind = points_[mesh.apex(mesh.twin[h])] - points_[mesh.source(h)];
+      largest = (std::max)(largest, std::abs(n.dot(behind)) / 8);
     }
+    return largest;
   }
+
+  static constexpr double largest_bulge = 2; // of the input where sizes can part faces, in bounds of the distance
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 

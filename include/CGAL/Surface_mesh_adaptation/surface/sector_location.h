@@ -46,8 +46,10 @@ Location location_in_sector(const Surface& surface, Index h)
   const std::size_t i = !is_corner ? c.segment(l.u) : is_forward ? 0 : c.vertices.size() - 2;
   const double t = !is_corner ? c.parameter(i, l.u) : is_forward ? 0 : 1;
   const Index a = c.vertices[i], b = c.vertices[i + 1];
-  return is_forward ? location_on_edge(reference.mesh.halfedge(a, b), t)
-                    : location_on_edge(reference.mesh.halfedge(b, a), 1 - t);
+  const Index forward = reference.mesh.halfedge(a, b), backward = reference.mesh.halfedge(b, a);
+  // at the boundary there is only one, which an edge along more than half of a closed curve takes for the other one
+  const bool takes_forward = backward == no_index || (is_forward && forward != no_index);
+  return takes_forward ? location_on_edge(forward, t) : location_on_edge(backward, 1 - t);
 }
 
 /// The same as a start of walks: a little inside of the face, where all ways are open.
