@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What belongs to the elements of a mesh comes out of an adaptation of every model of the face graph, with every policy,
-// and the same to the bit wherever coordinates are the same.
+// What belongs to the elements of a mesh comes out of an adaptation of every model of the face graph, with every
+// policy, and the same to the bit wherever coordinates are the same.
 
 #include "archetypes.h"
 #include "checks.h"
@@ -144,8 +144,8 @@ protected:
   static constexpr bool is_single = std::is_same_v<TriangleMesh, models::Single_precision_mesh>;
   static constexpr double rounding = is_single ? 1e-6 : 1e-12; ///< of coordinates below 2
 
-  /// Calls `adapt(policy, carrier)`, which prepares and adapts a mesh, with each policy; expects the same of all, and of
-  /// the reference model, and calls `check(carrier)` with the first.
+  /// Calls `adapt(policy, carrier)`, which prepares and adapts a mesh, with each policy; expects the same of all, and
+  /// of the reference model, and calls `check(carrier)` with the first.
   template <class Adapt, class Check>
   static void expect_everywhere_the_same(const Soup& soup, const Adapt& adapt, const Check& check)
   {

@@ -272,8 +272,8 @@ private:
     origin_ = std::move(origin);
   }
 
-  /// The triangles as a view, if they are an oriented manifold as they are and no two have the same corners: most files are
-  /// like that, and CGAL's functions take long to find nothing to do.
+  /// The triangles as a view, if they are an oriented manifold as they are and no two have the same corners: most files
+  /// are like that, and CGAL's functions take long to find nothing to do.
   std::optional<Mesh_view> view_of_surface() const
   {
     std::optional<Mesh_view> view(std::in_place);

@@ -44,8 +44,8 @@ public:
     return true;
   }
 
-  /// Whether each vertex has a triangle. Inside, its halfedge is that of the last face around, which CGAL's functions for
-  /// soups choose, too.
+  /// Whether each vertex has a triangle. Inside, its halfedge is that of the last face around, which CGAL's functions
+  /// for soups choose, too.
   bool find_outgoing()
   {
     view_.outgoing.resize(first_.size() - 1);
@@ -86,8 +86,8 @@ private:
 
 /// Makes a view of which only the corners are set, with an index below `number_of_vertices` each, a whole one, but for
 /// curves. Returns whether the triangles allow that: no edge has more than two of them, or two that look to different
-/// sides, and each vertex has one. Whether those around a vertex form one fan is not checked. `poll()` is called now and
-/// then.
+/// sides, and each vertex has one. Whether those around a vertex form one fan is not checked. `poll()` is called now
+/// and then.
 template <class Poll>
 bool join_triangles(Mesh_view& view, std::size_t number_of_vertices, const Poll& poll)
 {
