@@ -9,13 +9,13 @@
 #include "adaptation.h"
 
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/join_triangles.h>
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace sma_python {
 
@@ -35,8 +35,8 @@ public:
     if (input_.triangles.rows() > CGAL::Surface_mesh_adaptation::max_number_of_faces || !has_finite_points() ||
         !read_corners())
       return std::nullopt;
-    sort_by_source();
-    if (!find_twins() || !find_outgoing()) return std::nullopt;
+    if (!CGAL::Surface_mesh_adaptation::internal::join_triangles(view_, input_.points.rows, [&] { input_.poll(); }))
+      return std::nullopt;
     return std::move(view_);
   }
 
@@ -65,17 +65,6 @@ private:
     return true;
   }
 
-  /// The halfedges that leave a vertex side by side.
-  void sort_by_source()
-  {
-    first_.assign(input_.points.rows + 1, 0);
-    for (const Index v : view_.corner) ++first_[v + 1];
-    for (std::size_t v = 0; v < input_.points.rows; ++v) first_[v + 1] += first_[v];
-    std::vector<Index> next(first_.begin(), first_.end() - 1);
-    leaving_.resize(view_.corner.size());
-    for (std::size_t h = 0; h < view_.corner.size(); ++h) leaving_[next[view_.corner[h]]++] = Index(h);
-  }
-
   /// To be called for every `i`.
   void poll(std::size_t i) const
   {
@@ -83,50 +72,8 @@ private:
     if (i % period == 0) input_.poll();
   }
 
-  /// How many halfedges lead from `v` to `w`, and the last of them.
-  Index find(Index v, Index w, std::size_t& count) const
-  {
-    Index found = CGAL::Surface_mesh_adaptation::no_index;
-    count = 0;
-    for (std::size_t i = first_[v]; i < first_[v + 1]; ++i)
-      if (view_.target(leaving_[i]) == w) {
-        found = leaving_[i];
-        ++count;
-      }
-    return found;
-  }
-
-  bool find_twins()
-  {
-    view_.twin.resize(view_.corner.size());
-    for (Index h = 0; h < view_.corner.size(); ++h) {
-      poll(h);
-      const Index v = view_.source(h), w = view_.target(h);
-      std::size_t here = 0, back = 0;
-      find(v, w, here);
-      view_.twin[h] = find(w, v, back);
-      if (v == w || here > 1 || back > 1) return false;
-    }
-    return true;
-  }
-
-  /// Inside, that of the last face around, which CGAL's functions for soups choose, too.
-  bool find_outgoing()
-  {
-    view_.outgoing.resize(input_.points.rows);
-    for (std::size_t v = 0; v < input_.points.rows; ++v) {
-      if (first_[v] == first_[v + 1]) return false;
-      view_.outgoing[v] = leaving_[first_[v + 1] - 1];
-      for (std::size_t i = first_[v]; i < first_[v + 1]; ++i)
-        if (view_.is_border(leaving_[i])) view_.outgoing[v] = leaving_[i];
-    }
-    return true;
-  }
-
   const Surface_arrays& input_;
   CGAL::Surface_mesh_adaptation::Mesh_view view_;
-  std::vector<Index> first_;   // of the halfedges that leave each vertex, in `leaving_`
-  std::vector<Index> leaving_;
 };
 
 } // namespace sma_python

@@ -309,28 +309,33 @@ inline SMA::Mesh_view view(const Soup& soup)
   return m;
 }
 
-/// The same as a face graph: vertices and faces in the order of the soup.
-template <class TriangleMesh>
-TriangleMesh mesh(const Soup& soup)
+/// Adds a soup to a face graph, of which `point` holds the points: vertices and faces in the order of the soup.
+template <class TriangleMesh, class PointMap>
+void add_to(TriangleMesh& m, const PointMap& point, const Soup& soup)
 {
-  TriangleMesh m;
-  const auto point = get(CGAL::vertex_point, m);
-  using Point = typename boost::property_traits<std::decay_t<decltype(point)>>::value_type;
+  using Point = typename boost::property_traits<PointMap>::value_type;
   std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> v;
   for (const Vector_3& p : soup.points) {
     v.push_back(add_vertex(m));
     put(point, v.back(), Point(p[0], p[1], p[2]));
   }
   for (const Triangle& t : soup.triangles) CGAL::Euler::add_face(std::array{v[t[0]], v[t[1]], v[t[2]]}, m);
+}
+
+/// The same as a face graph with points of its own.
+template <class TriangleMesh>
+TriangleMesh mesh(const Soup& soup)
+{
+  TriangleMesh m;
+  add_to(m, get(CGAL::vertex_point, m), soup);
   return m;
 }
 
 /// Points and triangles of a face graph, in its order and from the first halfedge of each face on.
-template <class TriangleMesh>
-Soup soup(const TriangleMesh& m)
+template <class TriangleMesh, class PointMap>
+Soup soup(const TriangleMesh& m, const PointMap& point)
 {
   Soup s;
-  const auto point = get(CGAL::vertex_point, m);
   const auto index = get(CGAL::dynamic_vertex_property_t<Index>(), m);
   for (const auto v : vertices(m)) {
     put(index, v, Index(s.points.size()));
@@ -342,6 +347,12 @@ Soup soup(const TriangleMesh& m)
     s.triangles.push_back({get(index, source(h, m)), get(index, target(h, m)), get(index, target(next(h, m), m))});
   }
   return s;
+}
+
+template <class TriangleMesh>
+Soup soup(const TriangleMesh& m)
+{
+  return soup(m, get(CGAL::vertex_point, m));
 }
 
 } // namespace shapes

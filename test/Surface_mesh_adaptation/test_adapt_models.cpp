@@ -3,16 +3,10 @@
 // Adaptation of other meshes than `Surface_mesh<Simple_cartesian<double>::Point_3>`.
 
 #include "checks.h"
+#include "models.h"
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
-
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polyhedron_3.h>
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/boost/graph/graph_traits_Polyhedron_3.h>
 
 #include <gtest/gtest.h>
 
@@ -25,17 +19,12 @@ namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::Soup;
 using shapes::Vector_3;
 
-template <class Kernel>
-using Surface_mesh = CGAL::Surface_mesh<typename Kernel::Point_3>;
-using Polyhedron = CGAL::Polyhedron_3<CGAL::Exact_predicates_inexact_constructions_kernel>;
-
 template <class TriangleMesh>
 class Model : public ::testing::Test
 {};
 
-using Models = ::testing::Types<Surface_mesh<CGAL::Exact_predicates_inexact_constructions_kernel>,
-                                Surface_mesh<CGAL::Exact_predicates_exact_constructions_kernel>,
-                                Surface_mesh<CGAL::Simple_cartesian<float>>, Polyhedron>;
+using Models = ::testing::Types<models::Surface_mesh, models::Exact_mesh, models::Single_precision_mesh,
+                                models::Polyhedron, models::Cell_complex>;
 TYPED_TEST_SUITE(Model, Models, );
 
 TYPED_TEST(Model, is_adapted_as_any_other)
@@ -51,7 +40,7 @@ TYPED_TEST(Model, is_adapted_as_any_other)
       EXPECT_EQ(report.final.vertices, after.points.size());
       // the work is done in doubles: only the coordinates are rounded, before and after
       const Soup rounded{shapes::soup(shapes::mesh<TypeParam>(before)).points, before.triangles};
-      auto reference = shapes::mesh<Surface_mesh<CGAL::Simple_cartesian<double>>>(rounded);
+      auto reference = shapes::mesh<models::Reference>(rounded);
       SMA::adapt_surface_mesh<CGAL::Sequential_tag>(reference, SMA::Uniform_metric_field(size));
       const Soup expected = shapes::soup(reference);
       ASSERT_EQ(after.points.size(), expected.points.size());

@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -640,6 +641,81 @@ TEST_F(Adapt_mesh, reads_off_files_however_their_lines_are_broken)
   }
   write(path("bad.off"), "OFF\n3 1 0\n0 0 0\n1 zero 0\n0 1 0\n3 0 1 2\n");
   expect_failure(3, "bad.off out.off --size 0.3", "bad.off:4: a coordinate expected, but there is 'zero'");
+}
+
+TEST_F(Adapt_mesh, reads_obj_files_however_their_corners_are_written)
+{
+  std::string points;
+  for (const Vector_3& p : sphere_.points) {
+    std::ostringstream line;
+    line.precision(17);
+    line << "v " << p[0] << (p[1] < 0 ? " " : " +") << p[1] << "\t" << p[2] << " 1.0 # with a weight\r\n";
+    points += line.str();
+  }
+  const auto with_faces = [&](const auto& corner) {
+    std::string text = "# points\n\n" + points + "vt 0.5\nvn 0 0 1\n";
+    for (const auto& t : sphere_.triangles)
+      text += " f " + corner(t[0]) + "  " + corner(t[1]) + "\t" + corner(t[2]) + " # a face\r\n";
+    return text;
+  };
+  const auto n = long(sphere_.points.size());
+  const auto plain = [](long v) { return std::to_string(v + 1); };
+  write(path("in.obj"), with_faces(plain));
+  expect_success("in.obj expected.off --size 0.3 --quiet");
+  const auto expect_the_same = [&](const auto& corner) {
+    write(path("in.obj"), with_faces(corner));
+    expect_success("in.obj out.off --size 0.3 --quiet");
+    EXPECT_TRUE(content(path("out.off")) == content(path("expected.off")));
+  };
+  expect_the_same([&](long v) { return std::to_string(v - n); });
+  for (const std::string end : {"/", "//", "/1", "//1", "/1/1", "/-1/-1", "/9999999999999999999/7"})
+    expect_the_same([&](long v) { return plain(v) + end; });
+  write(path("bad.obj"), "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n");
+  expect_failure(3, "bad.obj out.off --size 0.3", "bad.obj:2: a coordinate expected");
+  write(path("bad.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 x\n");
+  expect_failure(3, "bad.obj out.off --size 0.3", "bad.obj:4: an index expected");
+  for (const std::string none : {"0", "4", "-4", "99999999999999999999"}) {
+    write(path("bad.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 " + none + "\n");
+    expect_failure(3, "bad.obj out.off --size 0.3", "bad.obj: ");
+  }
+}
+
+/// A binary stl file of triangles.
+std::string stl(const Soup& soup, const std::string& header)
+{
+  std::string bytes = header;
+  bytes.resize(80, ' ');
+  const auto append = [&](auto x) { bytes.append(reinterpret_cast<const char*>(&x), sizeof x); };
+  append(std::uint32_t(soup.triangles.size()));
+  for (const auto& t : soup.triangles) {
+    for (int i = 0; i < 3; ++i) append(0.f);
+    for (const auto v : t)
+      for (int i = 0; i < 3; ++i) append(float(soup.points[v][i]));
+    append(std::uint16_t(7));
+  }
+  return bytes;
+}
+
+TEST_F(Adapt_mesh, tells_binary_stl_files_from_text)
+{
+  Soup soup = sphere_;
+  for (Vector_3& p : soup.points) // both zeros are the same place
+    for (double& x : p)
+      if (x == 0) x = 0;
+  write(path("in.stl"), stl(soup, "exported"));
+  expect_success("in.stl expected.off --size 0.3 --quiet");
+  EXPECT_EQ(checks::topology(read(path("expected.off"))).boundary_cycles, 0u);
+  for (double& x : soup.points[soup.triangles[5][0]])
+    if (x == 0) x = -0.0;
+  for (const std::string& bytes : {stl(soup, "solid of a program that says so"), stl(soup, "x") + "and more"}) {
+    write(path("in.stl"), bytes);
+    expect_success("in.stl out.off --size 0.3 --quiet");
+    EXPECT_TRUE(content(path("out.off")) == content(path("expected.off")));
+  }
+  write(path("bad.stl"), stl(soup, "x").substr(0, 1000));
+  expect_failure(3, "bad.stl out.off --size 0.3", "bad.stl");
+  write(path("bad.stl"), "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid\n");
+  expect_failure(3, "bad.stl out.off --size 0.3", "bad.stl:7: not a valid stl file: a facet is no triangle");
 }
 
 TEST_F(Adapt_mesh, refuses_metrics_that_do_not_fit)

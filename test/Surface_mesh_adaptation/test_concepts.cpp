@@ -46,17 +46,7 @@ struct Cube
   Graph graph;
   Map<Vertex, Kernel::Point_3> points;
 
-  Cube()
-  {
-    const shapes::Soup soup = shapes::cube(3);
-    std::vector<Vertex> vertices;
-    for (const SMA::Vector_3& p : soup.points) {
-      vertices.push_back(add_vertex(graph));
-      put(points, vertices.back(), Kernel::Point_3(p.x(), p.y(), p.z()));
-    }
-    for (const auto& t : soup.triangles)
-      CGAL::Euler::add_face(std::array{vertices[t[0]], vertices[t[1]], vertices[t[2]]}, graph);
-  }
+  Cube() { shapes::add_to(graph, points, shapes::cube(3)); }
 
   double area() const
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// MEDIT by the package, other formats by CGAL where it is robust enough. Compiled apart, as the repair of meshes is a
+// MEDIT by the package, other formats by parsers that trust no file. Compiled apart, as the repair of meshes is a
 // lot to compile.
 
 #include "mesh_files.h"
@@ -204,10 +204,7 @@ void write(std::ofstream& out, const std::string& format, bool as_text, const Co
   else if (format == "obj") write_obj(out, mesh);
   else if (format == "ply") write_ply(out, mesh);
   else if (as_text) write_stl_text(out, mesh);
-  else {
-    CGAL::IO::set_binary_mode(out);
-    CGAL::IO::write_STL(out, mesh.mesh);
-  }
+  else write_stl_binary(out, mesh);
 }
 
 } // namespace

@@ -24,6 +24,7 @@
 #include <optional>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -61,7 +62,7 @@ public:
   Output_buffer& operator=(const Output_buffer&) = delete;
   ~Output_buffer() { flush(); }
 
-  Output_buffer& operator<<(const std::string& text)
+  Output_buffer& operator<<(std::string_view text)
   {
     buffer_ += text;
     if (buffer_.size() > enough) flush();
@@ -69,14 +70,9 @@ public:
   }
 
   /// The shortest text that gives the same number.
-  Output_buffer& operator<<(double x)
-  {
-    std::array<char, 32> text;
-    return *this << std::string(text.data(), std::to_chars(text.data(), text.data() + text.size(), x).ptr);
-  }
-
-  Output_buffer& operator<<(std::size_t n) { return *this << std::to_string(n); }
-  Output_buffer& operator<<(std::uint32_t n) { return *this << std::to_string(n); }
+  Output_buffer& operator<<(double x) { return number(x); }
+  Output_buffer& operator<<(std::size_t n) { return number(n); }
+  Output_buffer& operator<<(std::uint32_t n) { return number(n); }
 
   template <class T>
   void binary(T x)
@@ -97,6 +93,14 @@ public:
 
 private:
   static constexpr std::size_t enough = 1 << 20;
+
+  template <class Number>
+  Output_buffer& number(Number x)
+  {
+    std::array<char, 32> text;
+    const char* const end = std::to_chars(text.data(), text.data() + text.size(), x).ptr;
+    return *this << std::string_view(text.data(), std::size_t(end - text.data()));
+  }
 
   template <class One, class Two, class Four>
   void integer(double x, std::size_t size)
@@ -288,7 +292,7 @@ private:
 template <class Triple>
 void write_row(Output_buffer& out, const char* keyword, const Triple& x)
 {
-  out << std::string(keyword) + " " << x[0] << " " << x[1] << " " << x[2] << "\n";
+  out << keyword << " " << x[0] << " " << x[1] << " " << x[2] << "\n";
 }
 
 /// The lines by which obj files name what follows, as far as it changes.
@@ -327,6 +331,22 @@ inline void write_obj(std::ostream& stream, const Constrained_mesh& m)
       if (normals.exist()) out << "/" << v;
     }
     out << "\n";
+  }
+}
+
+/// Binary, in single precision.
+inline void write_stl_binary(std::ostream& stream, const Constrained_mesh& m)
+{
+  internal::Output_buffer out(stream);
+  const auto write_triple = [&](const auto& x) {
+    for (int i = 0; i < 3; ++i) out.binary(float(x[i]));
+  };
+  out << std::string(80, ' '); // the header
+  out.binary(std::uint32_t(m.mesh.number_of_faces()));
+  for (const Face f : m.mesh.faces()) {
+    write_triple(CGAL::Polygon_mesh_processing::compute_face_normal(f, m.mesh));
+    for (const Vertex v : m.mesh.vertices_around_face(m.mesh.halfedge(f))) write_triple(m.mesh.point(v));
+    out.binary(std::uint16_t(0));
   }
 }
 

@@ -13,6 +13,7 @@
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/join_triangles.h>
 
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
@@ -32,6 +33,7 @@
 #include <exception>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -172,8 +174,14 @@ public:
   Repair_report build(TriangleMesh& mesh, const Repair_options& options)
   {
     remove_unused();
-    remove_duplicate_faces();
-    orient_and_cut();
+    is_turned_.assign(triangles_.size(), false);
+    original_.resize(points_.size());
+    std::iota(original_.begin(), original_.end(), std::uint32_t(0));
+    view_ = view_of_surface();
+    if (!view_) {
+      remove_duplicate_faces();
+      orient_and_cut();
+    }
     join(options.weld);
     remove_unused();
     convert(mesh);
@@ -264,6 +272,31 @@ private:
     origin_ = std::move(origin);
   }
 
+  /// The triangles as a view, if they are an oriented manifold as they are and no two have the same corners: most files
+  /// are like that, and CGAL's functions take long to find nothing to do.
+  std::optional<Mesh_view> view_of_surface() const
+  {
+    std::optional<Mesh_view> view(std::in_place);
+    const std::size_t n = triangles_.size();
+    if (n > max_number_of_faces) return std::nullopt;
+    view->corner.resize(3 * n);
+    for (std::size_t f = 0; f < n; ++f) // the first corner is the last one, as it is in CGAL's functions for soups
+      for (std::size_t i = 0; i < 3; ++i) view->corner[3 * f + (i + 1) % 3] = triangles_[f][i];
+    if (!join_triangles(*view, points_.size(), [] {}) || !is_manifold(*view)) view.reset();
+    return view;
+  }
+
+  /// Whether each vertex has one fan of faces, and no face a copy that looks the other way.
+  static bool is_manifold(const Mesh_view& view)
+  {
+    std::size_t corners = 0;
+    for (Index v = 0; v < view.number_of_vertices(); ++v) view.for_each_outgoing(v, [&](Index) { ++corners; });
+    bool has_copies = false;
+    for (Index h = 0; h < view.number_of_halfedges() && !has_copies; h += 3)
+      has_copies = !view.is_border(h) && view.apex(h) == view.apex(view.twin[h]);
+    return corners == view.number_of_halfedges() && !has_copies;
+  }
+
   /// Keeps the first of the triangles with the same corners.
   void remove_duplicate_faces()
   {
@@ -308,8 +341,6 @@ private:
   void orient_and_cut()
   {
     is_turned_.assign(triangles_.size(), false);
-    original_.resize(points_.size());
-    std::iota(original_.begin(), original_.end(), std::uint32_t(0));
     CGAL::Polygon_mesh_processing::orient_polygon_soup(points_, triangles_,
                                                        CGAL::parameters::visitor(Orientation_visitor(*this)));
     for (std::size_t i = origin_.size(); i < points_.size(); ++i) origin_.push_back(origin_[original_[i]]);
@@ -327,6 +358,7 @@ private:
   void join(bool weld)
   {
     Seam_finder seams(weld ? places_of(points_) : original_, triangles_);
+    if (seams.found_any()) view_.reset();
     Disjoint_sets sets = seams.joined_points();
     for (std::size_t i = 0; i < triangles_.size() && seams.found_any(); ++i) {
       if (seams.is_turned(triangles_[i][0])) turn(i);
@@ -355,9 +387,14 @@ private:
   }
 
   template <class TriangleMesh>
-  void convert(TriangleMesh& mesh) const
+  void convert(TriangleMesh& mesh)
   {
-    CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points_, triangles_, mesh);
+    if (!view_) return CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(points_, triangles_, mesh);
+    write_connectivity(Sequential_execution(), *view_, mesh);
+    const auto point = get(CGAL::vertex_point, mesh);
+    std::size_t i = 0;
+    for (const auto v : vertices(mesh)) put(point, v, points_[i++]);
+    view_.reset();
   }
 
   template <class TriangleMesh>
@@ -411,6 +448,7 @@ private:
   std::vector<std::uint32_t> polygon_;      // of which each triangle is a part
   std::vector<bool> is_turned_;             // by triangle: looks the other way in the input
   std::set<std::array<std::size_t, 2>> non_manifold_edges_;
+  std::optional<Mesh_view> view_;           // of the triangles, if they are a surface as they are
   Repair_report report_;
 };
 

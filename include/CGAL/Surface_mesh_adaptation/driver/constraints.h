@@ -28,13 +28,17 @@ class Edge_constraints
 public:
   explicit Edge_constraints(std::vector<Edge_constraint>& constraints) : constraints_(constraints) {}
 
-  /// Gives `constraint` to the halfedges, of `n`, for which `predicate(h)`.
+  /// Gives `constraint` to the edges with a halfedge for which `predicate(h)`. A map of a user may know an edge from one
+  /// side only: that of a cell complex, kept in a `std::set`.
   template <class Predicate>
-  void add(std::size_t n, Edge_constraint constraint, const Predicate& predicate)
+  void add(const Mesh_view& mesh, Edge_constraint constraint, const Predicate& predicate)
   {
-    constraints_.resize(n, Edge_constraint::none);
-    for (std::size_t h = 0; h < n; ++h)
-      if (constraints_[h] < constraint && predicate(Index(h))) constraints_[h] = constraint;
+    constraints_.resize(mesh.number_of_halfedges(), Edge_constraint::none);
+    for (Index h = 0; h < mesh.number_of_halfedges(); ++h)
+      if (constraints_[h] < constraint && predicate(h)) {
+        constraints_[h] = constraint;
+        if (!mesh.is_border(h)) constraints_[mesh.twin[h]] = constraint;
+      }
   }
 
 private:
@@ -65,17 +69,16 @@ Feature_parameters feature_parameters(const FaceGraph& graph, const Imported_mes
   if (!(p.ridge_angle > 0 && p.ridge_angle <= 180))
     throw Invalid_parameter_error("the feature angle must lie between 0 and 180 degrees");
   Edge_constraints constraints(p.halfedge_constraint);
-  const std::size_t n = imported.halfedges.size();
   const auto is_in = [&](const auto& map) {
     return [&graph, &imported, map](Index h) -> bool { return get(map, edge(imported.halfedges[h], graph)); };
   };
   if constexpr (has_parameter<NamedParameters, CGAL::internal_np::edge_is_constrained_t>) {
     const bool are_protected = choose(np, CGAL::internal_np::protect_constraints, false);
-    constraints.add(n, are_protected ? Edge_constraint::protect : Edge_constraint::crease,
+    constraints.add(imported.mesh, are_protected ? Edge_constraint::protect : Edge_constraint::crease,
                     is_in(CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained)));
   }
   if constexpr (has_parameter<NamedParameters, internal_np::edge_is_protected_map_t>)
-    constraints.add(n, Edge_constraint::protect,
+    constraints.add(imported.mesh, Edge_constraint::protect,
                     is_in(CGAL::parameters::get_parameter(np, internal_np::edge_is_protected_map)));
   if constexpr (has_parameter<NamedParameters, CGAL::internal_np::vertex_is_constrained_t>) {
     const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_is_constrained);

@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -36,11 +35,10 @@ public:
   /// A number that fits into 32 bits in every version.
   Medit_text_writer& word_sized(int i) { return integer(i); }
 
-  /// With 17 significant digits, thus the value that is read back is the same.
+  /// With as many digits as it takes for the value that is read back to be the same.
   Medit_text_writer& real(double x)
   {
-    constexpr int digits = std::numeric_limits<double>::max_digits10;
-    return append([&](char* b, char* e) { return std::to_chars(b, e, x, std::chars_format::general, digits); });
+    return append([&](char* b, char* e) { return std::to_chars(b, e, x); });
   }
 
   Medit_text_writer& end_line()
