@@ -57,7 +57,9 @@ int main(int argc, char* argv[])
   CGAL::make_icosahedron<Mesh, Point>(ball, corner, radius);
   //! [pipeline]
   for (Mesh* m : {&mesh, &ball}) {
-    const auto report = SMA::adapt_surface_mesh(*m, SMA::Uniform_metric_field(radius / 20));
+    const SMA::Uniform_metric_field field(radius / 20);
+    // Booleans refuse surfaces that intersect themselves
+    const auto report = SMA::adapt_surface_mesh(*m, field, SMA::parameters::avoid_self_intersections(true));
     std::cout << report.initial.vertices << " vertices became " << report.final.vertices << '\n';
   }
   //! [pipeline]

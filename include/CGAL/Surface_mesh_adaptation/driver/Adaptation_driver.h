@@ -192,6 +192,7 @@ private:
       if (extent_ == 0) break;
       do_rounds(rounds_of_correction, current());
       refinement_.compact();
+      is_parted_ = true;
     }
     extent_ = 0;
   }
@@ -322,6 +323,8 @@ private:
       report_.warnings.push_back("faces are up to " + internal::number(report_.deviation) + " away from the surface, " +
                                  internal::number(std::round(10 * report_.deviation / deviation) / 10) +
                                  " times the tolerance of the sizes: ask for a `tolerance`, or give a finer input");
+    if (is_parted_)
+      report_.warnings.push_back("sizes are finer than asked for where sheets are too near each other for them");
     if (report_.final.in_range < expected_share)
       report_.warnings.push_back("only " + percent(report_.final.in_range) + " of the edges have the length asked for");
   }
@@ -437,6 +440,7 @@ private:
   std::size_t extent_ = 0;   // number of vertices of the part that is worked on; 0: all
   bool is_adapted_ = false;  // from the beginning
   bool is_restored_ = false; // to an earlier state, behind the last round
+  bool is_parted_ = false;   // by finer sizes where faces met
   bool is_irregular_ = true; // so much that it is worth to go on with regularization
 };
 

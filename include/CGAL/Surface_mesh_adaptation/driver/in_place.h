@@ -25,6 +25,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -124,6 +125,9 @@ public:
     }
     report_.threads = execution_.concurrency();
     report_.self_intersections = intersections_;
+    if (guard_ && guard_->number_of_kept_faces() > 0)
+      report_.warnings.push_back(std::to_string(guard_->number_of_kept_faces()) +
+                                 " faces of the input stay where it comes too near to itself for the sizes");
     if (intersections_.after > intersections_.before)
       report_.warnings.push_back("faces intersect that did not, or in more pairs than before: ask to "
                                  "`avoid_self_intersections` (`--no-self-intersections`)");

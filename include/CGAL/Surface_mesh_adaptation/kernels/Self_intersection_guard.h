@@ -135,6 +135,9 @@ public:
     for (int i = 0; i < rings; ++i) is_kept_ = with_faces_around(is_kept_);
   }
 
+  /// How many there are by now.
+  std::size_t number_of_kept_faces() const { return std::size_t(std::count(is_kept_.begin(), is_kept_.end(), 1)); }
+
   /// `features`, with the edges of all faces that have to be kept.
   Feature_parameters constrained(Feature_parameters features) const
   {
