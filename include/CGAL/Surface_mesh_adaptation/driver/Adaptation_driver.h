@@ -186,9 +186,10 @@ private:
       const std::vector<Face_pair> pairs = guard.new_pairs(execution_, surface_);
       if (pairs.empty()) break;
       guard.find_gaps(execution_, surface_);
-      if (!guard.can_be_parted(surface_, pairs)) break;
       if (i == 0) surface_.bound_distance(execution_, guard.bounds_at_vertices(execution_));
-      work_where(surface_.tighten_metric(execution_, guard.size_factors(surface_, pairs), limits_at_gaps));
+      const std::vector<double> factors = guard.size_factors(execution_, surface_, pairs);
+      if (factors.empty()) break; // sizes cannot part them
+      work_where(surface_.tighten_metric(execution_, factors, limits_at_gaps));
       if (extent_ == 0) break;
       do_rounds(rounds_of_correction, current());
       refinement_.compact();

@@ -23,6 +23,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -49,6 +50,7 @@ public:
     std::vector<Face_pair> pairs = self_intersections(execution, surface.mesh, surface.points, surroundings_);
     if (pairs.empty()) return pairs;
     if (is_old_.empty()) find_old(execution);
+    if (!has_old_) return pairs;
     const auto is_old = [&](const Face_pair& p) { return is_above_old(surface, p[0]) && is_above_old(surface, p[1]); };
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_old), pairs.end());
     return pairs;
@@ -89,33 +91,29 @@ public:
   }
 
   /// What the sizes at the vertices of `surface` are to be multiplied with so that the faces of `pairs` come nearer to the
-  /// input than half the gaps there: distances go with the squares of sizes. 1 where no size can do that. \pre gaps were found
-  template <class Surface>
-  std::vector<double> size_factors(const Surface& surface, const std::vector<Face_pair>& pairs) const
+  /// input than half the gaps there: distances go with the squares of sizes. 1 where no size can do that, and nothing at all
+  /// where that is so for half of the pairs. \pre gaps were found
+  template <class Execution, class Surface>
+  std::vector<double> size_factors(const Execution& execution, const Surface& surface,
+                                   const std::vector<Face_pair>& pairs) const
   {
     constexpr double strongest_step = 0.35, weakest_step = 0.8;
+    const std::vector<double> wanted = factors_of_faces(execution, surface, pairs);
+    const auto n = std::count_if(pairs.begin(), pairs.end(), [&](const Face_pair& pair) {
+      return wanted[pair[0]] > 0 && wanted[pair[1]] > 0;
+    });
+    if (2 * std::size_t(n) <= pairs.size()) return {};
     std::vector<double> factors(surface.mesh.number_of_vertices(), 1);
-    for (const Face_pair& pair : pairs) {
-      const double wanted[] = {size_factor(surface, pair[0]), size_factor(surface, pair[1])};
+    for (const Face_pair& pair : pairs)
       for (const std::size_t i : {0, 1}) {
-        if (wanted[i] == 0 || (wanted[i] > 1 && wanted[1 - i] < 1)) continue; // the other one is too far away
+        const double of_face = wanted[pair[i]];
+        if (of_face == 0 || (of_face > 1 && wanted[pair[1 - i]] < 1)) continue; // the other one is too far away
         for (Index h = 3 * pair[i]; h < 3 * pair[i] + 3; ++h) {
           double& factor = factors[surface.mesh.source(h)];
-          factor = (std::min)(factor, std::clamp(wanted[i], strongest_step, weakest_step));
+          factor = (std::min)(factor, std::clamp(of_face, strongest_step, weakest_step));
         }
       }
-    }
     return factors;
-  }
-
-  /// Whether finer sizes can part most of `pairs`. \pre gaps were found
-  template <class Surface>
-  bool can_be_parted(const Surface& surface, const std::vector<Face_pair>& pairs) const
-  {
-    const auto n = std::count_if(pairs.begin(), pairs.end(), [&](const Face_pair& pair) {
-      return size_factor(surface, pair[0]) > 0 && size_factor(surface, pair[1]) > 0;
-    });
-    return 2 * std::size_t(n) > pairs.size();
   }
 
   /// Has the faces of the input below `pairs`, and ever more around these, kept in the next attempt.
@@ -125,12 +123,11 @@ public:
   {
     if (++attempts_ > max_attempts) throw Self_intersection_error(pairs.size());
     std::size_t number_of_new = 0;
-    for (const Face_pair& pair : pairs)
-      for (const Index f : pair)
-        for (const Index face : faces_below(surface, f)) {
-          number_of_new += is_kept_[face] == 0 ? 1 : 0;
-          is_kept_[face] = 1;
-        }
+    for (const Index f : faces_of(pairs))
+      for (const Index face : faces_below(surface, f)) {
+        number_of_new += is_kept_[face] == 0 ? 1 : 0;
+        is_kept_[face] = 1;
+      }
     const int rings = number_of_new == 0 ? 1 : (std::max)(0, attempts_ - max_attempts / 2);
     for (int i = 0; i < rings; ++i) is_kept_ = with_faces_around(is_kept_);
   }
@@ -160,6 +157,7 @@ private:
     is_old_.assign(mesh_.number_of_faces(), 0);
     for (const Face_pair& pair : self_intersections(execution, mesh_, points_, surroundings_))
       for (const Index f : pair) is_old_[f] = 1;
+    has_old_ = std::find(is_old_.begin(), is_old_.end(), 1) != is_old_.end();
     is_old_ = with_faces_around(is_old_);
   }
 
@@ -193,8 +191,9 @@ private:
   std::vector<Index> faces_below(const Surface& surface, Index f) const
   {
     std::vector<Index> faces;
+    std::unordered_set<Index> found;
     const auto add = [&](Index face) {
-      if (std::find(faces.begin(), faces.end(), face) == faces.end()) faces.push_back(face);
+      if (found.insert(face).second) faces.push_back(face);
     };
     const Triangle_points t = corners_from(surface.mesh, surface.points, 3 * f);
     for (Index h = 3 * f; h < 3 * f + 3; ++h) add(surface.reference().face_at(surface.locations[surface.mesh.source(h)]));
@@ -220,6 +219,28 @@ private:
                               Vector_3((t[1] + t[2]) / 2), Vector_3((t[2] + t[0]) / 2), t[0], t[1], t[2]})
       largest = (std::max)(largest, gaps_->tree.nearest(p, gaps_->tree.place(near)).squared_distance);
     return std::sqrt(largest);
+  }
+
+  /// The factor of each face of `pairs`; 1 for others.
+  template <class Execution, class Surface>
+  std::vector<double> factors_of_faces(const Execution& execution, const Surface& surface,
+                                       const std::vector<Face_pair>& pairs) const
+  {
+    std::vector<double> factors(surface.mesh.number_of_faces(), 1);
+    const std::vector<Index> faces = faces_of(pairs);
+    for_each_index(execution, faces.size(), [&](std::size_t i) { factors[faces[i]] = size_factor(surface, faces[i]); },
+                   heavy_chunk_length);
+    return factors;
+  }
+
+  /// Each once.
+  static std::vector<Index> faces_of(const std::vector<Face_pair>& pairs)
+  {
+    std::vector<Index> faces;
+    for (const Face_pair& pair : pairs) faces.insert(faces.end(), pair.begin(), pair.end());
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    return faces;
   }
 
   /// What the edges of the face `f` of `surface` are to be multiplied with so that it comes as near to the input as it
@@ -260,6 +281,7 @@ private:
   const std::vector<Vector_3>& points_;
   const Surroundings& surroundings_;
   std::vector<std::uint8_t> is_old_;  // each face of the input that meets another one, and those around; empty: not known
+  bool has_old_ = false;              // whether there is any
   std::vector<std::uint8_t> is_kept_; // each face of the input that has to stay
   std::optional<Gaps> gaps_; // once they are needed
   int attempts_ = 0;
