@@ -5,6 +5,7 @@
 // failure is printed; `--one` repeats it. To be built with sanitizers, see scripts/sanitize.
 
 #include "checks.h"
+#include "brute_force_intersections.h"
 #include "random_meshes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
@@ -61,7 +62,7 @@ double mean_edge(const Soup& soup)
 
 /// What the run may ask for beside the metric.
 template <class Reconstruction, class Field>
-SMA::Adaptation_report adapt(Random& random, Mesh& mesh, const Field& field)
+SMA::Adaptation_report adapt(Random& random, Mesh& mesh, bool avoids_intersections, const Field& field)
 {
   auto edge_map = mesh.add_property_map<Mesh::Edge_index, bool>("e:constrained", false).first;
   auto vertex_map = mesh.add_property_map<Mesh::Vertex_index, bool>("v:constrained", false).first;
@@ -78,6 +79,7 @@ SMA::Adaptation_report adapt(Random& random, Mesh& mesh, const Field& field)
       .vertex_is_constrained_map(vertex_map)
       .tolerance(random.chance(0.15) ? random.magnitude(1e-3, 1) * mean_edge(shapes::soup(mesh)) : infinity)
       .fit_to_surface(random.chance(0.1))
+      .avoid_self_intersections(avoids_intersections)
       .maximum_number_of_vertices(5000)
       .surface_reconstruction(Reconstruction());
   return random.chance(0.2) ? SMA::adapt_surface_mesh<CGAL::Parallel_if_available_tag>(mesh, field, parameters)
@@ -101,22 +103,22 @@ Metric_tensor_3 random_tensor(Random& random, double size)
 }
 
 template <class Reconstruction>
-SMA::Adaptation_report adapt(Random& random, Mesh& mesh)
+SMA::Adaptation_report adapt(Random& random, Mesh& mesh, bool avoids_intersections)
 {
   const double size = mean_edge(shapes::soup(mesh)) * random.magnitude(0.1, 8);
   switch (random.below(4)) {
-  case 0: return adapt<Reconstruction>(random, mesh, SMA::Uniform_metric_field(size));
+  case 0: return adapt<Reconstruction>(random, mesh, avoids_intersections, SMA::Uniform_metric_field(size));
   case 1: {
     auto tensors = mesh.add_property_map<Mesh::Vertex_index, Metric_tensor_3>("v:tensor", Metric_tensor_3()).first;
     for (const auto v : mesh.vertices()) tensors[v] = random_tensor(random, size);
-    return adapt<Reconstruction>(random, mesh, tensors);
+    return adapt<Reconstruction>(random, mesh, avoids_intersections, tensors);
   }
   case 2: {
     auto sizes = mesh.add_property_map<Mesh::Vertex_index, double>("v:size", size).first;
     for (const auto v : mesh.vertices()) sizes[v] = size * random.magnitude(0.3, 3);
-    return adapt<Reconstruction>(random, mesh, sizes);
+    return adapt<Reconstruction>(random, mesh, avoids_intersections, sizes);
   }
-  default: return adapt<Reconstruction>(random, mesh, curvature_field(random));
+  default: return adapt<Reconstruction>(random, mesh, avoids_intersections, curvature_field(random));
   }
 }
 
@@ -128,9 +130,10 @@ std::string failure(std::uint64_t seed, bool is_verbose)
   if (!checks::is_manifold(generated)) return "the input is no manifold";
   Mesh mesh = shapes::mesh<Mesh>(generated);
   const Soup before = shapes::soup(mesh);
+  const bool avoids_intersections = random.chance(0.3);
   try {
-    const auto report = random.chance(0.3) ? adapt<SMA::Flat_reconstruction>(random, mesh)
-                                           : adapt<SMA::Gregory_reconstruction>(random, mesh);
+    const auto report = random.chance(0.3) ? adapt<SMA::Flat_reconstruction>(random, mesh, avoids_intersections)
+                                           : adapt<SMA::Gregory_reconstruction>(random, mesh, avoids_intersections);
     if (is_verbose) report.write_json(std::cout);
   } catch (const SMA::Adaptation_error& e) {
     if (is_verbose) std::cout << e.what() << '\n';
@@ -143,6 +146,9 @@ std::string failure(std::uint64_t seed, bool is_verbose)
   if (!(checks::topology(after) == checks::topology(before))) return "another topology";
   for (const Vector_3& p : after.points)
     if (!p.allFinite()) return "a coordinate that is not finite";
+  if (avoids_intersections && brute_force_intersections::number_of_pairs(before) == 0 &&
+      brute_force_intersections::number_of_pairs(after) > 0)
+    return "faces intersect";
   return "";
 }
 

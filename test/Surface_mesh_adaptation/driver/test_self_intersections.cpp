@@ -3,9 +3,11 @@
 // Faces that intersect: they are counted as every pair of faces tells, and none that did not come about where that is
 // asked for, whatever comes near to what.
 
-#include "near_sheets.h"
+#include "brute_force_intersections.h"
 #include "checks.h"
+#include "near_sheets.h"
 #include "policies.h"
+#include "random_meshes.h"
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
@@ -16,15 +18,12 @@
 #include <CGAL/Surface_mesh_adaptation/simplify.h>
 #include <CGAL/Surface_mesh_adaptation/swap.h>
 
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -42,66 +41,6 @@ using shapes::Vector_3;
 
 using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
 using Field = std::variant<SMA::Uniform_metric_field, SMA::Curvature_metric_field>;
-
-/// Whether two triangles of a soup meet in more than what they share, by exact constructions, with no filter.
-class Exact_soup
-{
-  using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-
-public:
-  explicit Exact_soup(const Soup& soup) : soup_(soup)
-  {
-    for (const Vector_3& p : soup.points) points_.emplace_back(p[0], p[1], p[2]);
-    for (const shapes::Triangle& t : soup.triangles)
-      boxes_.push_back(points_[t[0]].bbox() + points_[t[1]].bbox() + points_[t[2]].bbox());
-  }
-
-  std::size_t number_of_pairs() const
-  {
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      n += is_degenerate(i);
-      for (std::size_t j = i + 1; j < boxes_.size(); ++j)
-        n += CGAL::do_overlap(boxes_[i], boxes_[j]) && !is_degenerate(i) && !is_degenerate(j) && meet(i, j);
-    }
-    return n;
-  }
-
-private:
-  const Kernel::Point_3& point(std::size_t t, std::size_t k) const { return points_[soup_.triangles[t][k % 3]]; }
-
-  bool is_degenerate(std::size_t t) const { return CGAL::collinear(point(t, 0), point(t, 1), point(t, 2)); }
-
-  Kernel::Triangle_3 triangle(std::size_t t) const { return {point(t, 0), point(t, 1), point(t, 2)}; }
-
-  /// Beyond a common corner, one triangle reaches the edge of the other one that is opposite to it; beyond a common edge,
-  /// both lie on the same side of it in one plane.
-  bool meet(std::size_t s, std::size_t t) const
-  {
-    std::vector<std::array<std::size_t, 2>> shared;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        if (soup_.triangles[s][i] == soup_.triangles[t][j]) shared.push_back({i, j});
-    if (shared.empty()) return CGAL::do_intersect(triangle(s), triangle(t));
-    if (shared.size() == 1) {
-      const auto [i, j] = shared[0];
-      return CGAL::do_intersect(triangle(s), Kernel::Segment_3(point(t, j + 1), point(t, j + 2))) ||
-             CGAL::do_intersect(triangle(t), Kernel::Segment_3(point(s, i + 1), point(s, i + 2)));
-    }
-    const auto& a = point(s, shared[0][0]);
-    const auto& b = point(s, shared[1][0]);
-    const auto& c = point(s, 3 - shared[0][0] - shared[1][0]);
-    const auto& d = point(t, 3 - shared[0][1] - shared[1][1]);
-    return CGAL::coplanar(a, b, c, d) &&
-           CGAL::scalar_product(CGAL::cross_product(b - a, c - a), CGAL::cross_product(b - a, d - a)) > 0;
-  }
-
-  const Soup& soup_;
-  std::vector<Kernel::Point_3> points_;
-  std::vector<CGAL::Bbox_3> boxes_;
-};
-
-std::size_t pairs_by_brute_force(const Soup& soup) { return Exact_soup(soup).number_of_pairs(); }
 
 std::size_t pairs(const Soup& soup)
 {
@@ -131,7 +70,7 @@ TEST(Self_intersections, are_those_that_every_pair_of_faces_tells)
       p += noise * random.vector();
       if (seed % 3 == 0) p = Vector_3(std::round(4 * p[0]), std::round(4 * p[1]), std::round(4 * p[2])); // coplanar faces
     }
-    const std::size_t expected = pairs_by_brute_force(soup);
+    const std::size_t expected = brute_force_intersections::number_of_pairs(soup);
     ASSERT_EQ(pairs(soup), expected) << seed;
     all += expected;
   }
@@ -161,7 +100,7 @@ TEST(Self_intersections, are_counted_on_request)
   const auto report = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.4), params::count_self_intersections(true));
   EXPECT_TRUE(report.self_intersections.are_counted);
   EXPECT_EQ(report.self_intersections.before, 0u);
-  EXPECT_EQ(report.self_intersections.after, pairs_by_brute_force(shapes::soup(mesh)));
+  EXPECT_EQ(report.self_intersections.after, brute_force_intersections::number_of_pairs(shapes::soup(mesh)));
   EXPECT_GT(report.self_intersections.after, 0u);
   EXPECT_EQ(std::count_if(report.warnings.begin(), report.warnings.end(), [](const std::string& s) {
     return s.find("avoid_self_intersections") != std::string::npos;
@@ -181,12 +120,37 @@ TEST(Self_intersections, do_not_come_about_between_sheets_that_are_near_each_oth
     const bool is_fitted = random.below(4) == 0;
     SMA::adapt_surface_mesh(mesh, field, params::avoid_self_intersections(true).fit_to_surface(is_fitted));
     SMA::adapt_surface_mesh(plain, field, params::fit_to_surface(is_fitted));
-    EXPECT_EQ(pairs_by_brute_force(shapes::soup(mesh)), 0u) << name << ", seed " << seed;
+    EXPECT_EQ(brute_force_intersections::number_of_pairs(shapes::soup(mesh)), 0u) << name << ", seed " << seed;
     without += pairs(shapes::soup(plain)) > 0 ? 1 : 0;
     ++runs;
   }
   EXPECT_GT(runs, 55u);
   EXPECT_GT(without, runs / 3) << "the shapes are no test";
+}
+
+TEST(Self_intersections, do_not_come_about_in_a_thousand_small_random_meshes)
+{
+  std::size_t runs = 0, without = 0;
+  for (std::uint64_t seed = 0; seed < 3000; ++seed) {
+    random_meshes::Random random(seed);
+    const Soup soup = random_meshes::mesh(random);
+    if (!checks::is_manifold(soup) || brute_force_intersections::number_of_pairs(soup) > 0) continue;
+    const auto adapted = [&](bool avoids) {
+      Mesh mesh = shapes::mesh<Mesh>(soup);
+      Random same(seed);
+      try {
+        SMA::adapt_surface_mesh(mesh, random_field(same, soup),
+                                params::avoid_self_intersections(avoids).maximum_number_of_vertices(1000));
+      } catch (const SMA::Adaptation_error&) { // it is as it was
+      }
+      return brute_force_intersections::number_of_pairs(shapes::soup(mesh));
+    };
+    EXPECT_EQ(adapted(true), 0u) << "seed " << seed;
+    without += adapted(false) > 0 ? 1 : 0;
+    ++runs;
+  }
+  EXPECT_GT(runs, 1000u);
+  EXPECT_GT(without, 20u) << "the meshes are no test";
 }
 
 TEST(Self_intersections, are_avoided_with_the_same_bits_by_every_policy)
@@ -200,7 +164,7 @@ TEST(Self_intersections, are_avoided_with_the_same_bits_by_every_policy)
     results.push_back(shapes::soup(mesh));
     EXPECT_TRUE(checks::is_identical(results.back(), results.front())) << name;
   });
-  EXPECT_EQ(pairs_by_brute_force(results.front()), 0u);
+  EXPECT_EQ(brute_force_intersections::number_of_pairs(results.front()), 0u);
 }
 
 TEST(Self_intersections, of_the_input_stay_where_they_are)
@@ -237,7 +201,7 @@ TEST(Self_intersections, are_avoided_by_each_kernel_alone)
   const auto check = [&](const std::string& name, const auto& run) {
     Mesh mesh = shapes::mesh<Mesh>(soup);
     run(mesh);
-    EXPECT_EQ(pairs_by_brute_force(shapes::soup(mesh)), 0u) << name;
+    EXPECT_EQ(brute_force_intersections::number_of_pairs(shapes::soup(mesh)), 0u) << name;
   };
   check("refine", [&](Mesh& m) { SMA::refine(m, fine, np); });
   check("simplify", [&](Mesh& m) { SMA::simplify(m, coarse, np); });
@@ -269,7 +233,7 @@ TEST(Self_intersections, are_avoided_with_a_tolerance_labels_and_protected_edges
                                                 .face_patch_map(label)
                                                 .edge_is_constrained_map(is_protected)
                                                 .protect_constraints(true));
-  EXPECT_EQ(pairs_by_brute_force(shapes::soup(mesh)), 0u);
+  EXPECT_EQ(brute_force_intersections::number_of_pairs(shapes::soup(mesh)), 0u);
   EXPECT_LE(report.certified_distance, 0.05);
   std::size_t left = 0, labelled = 0;
   for (const auto e : mesh.edges()) left += is_protected[e] ? 1 : 0;
@@ -295,8 +259,8 @@ TEST(Self_intersections, are_avoided_with_what_is_around_a_part)
     SMA::adapt_surface_mesh(part, mesh, SMA::Uniform_metric_field(0.5), params::avoid_self_intersections(avoid));
     return shapes::soup(mesh);
   };
-  EXPECT_GT(pairs_by_brute_force(adapted(false)), 0u);
-  EXPECT_EQ(pairs_by_brute_force(adapted(true)), 0u);
+  EXPECT_GT(brute_force_intersections::number_of_pairs(adapted(false)), 0u);
+  EXPECT_EQ(brute_force_intersections::number_of_pairs(adapted(true)), 0u);
 }
 
 TEST(Self_intersections, are_avoided_in_coordinates_of_single_precision)
@@ -308,7 +272,7 @@ TEST(Self_intersections, are_avoided_in_coordinates_of_single_precision)
   if (pairs(shapes::soup(mesh)) > 0) GTEST_SKIP() << "rounding the input made some";
   SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(3 * soup.mean_edge_length()),
                           params::avoid_self_intersections(true));
-  EXPECT_EQ(pairs_by_brute_force(shapes::soup(mesh)), 0u);
+  EXPECT_EQ(brute_force_intersections::number_of_pairs(shapes::soup(mesh)), 0u);
 }
 
 } // namespace
