@@ -45,14 +45,15 @@ constexpr double share_of_operations = 0.95; // of the tolerance, at first
 
 /// The tolerance that the parameters ask for, if any.
 /// \throws Invalid_parameter_error
-template <class Reference, class NamedParameters>
-std::optional<Tolerance> tolerance_of(const Any_execution& execution, const Reference& reference, const NamedParameters& np)
+template <class NamedParameters>
+std::optional<Tolerance> tolerance_of(const Any_execution& execution, const Mesh_view& mesh,
+                                      const std::vector<Vector_3>& points, const NamedParameters& np)
 {
   constexpr double none = std::numeric_limits<double>::infinity();
   const double distance = choose(np, internal_np::tolerance, none);
   if (!(distance > 0)) throw Invalid_parameter_error("the tolerance must be positive");
   if (distance == none) return std::nullopt;
-  return Tolerance{distance, share_of_operations * distance, Triangle_tree(execution, reference.mesh, reference.points)};
+  return Tolerance{distance, share_of_operations * distance, Triangle_tree(execution, mesh, points)};
 }
 
 /// An upper bound of the distance between the input and the adapted mesh; a coarse one where that leaves the tolerance.
@@ -97,9 +98,10 @@ Adaptation_report adapt_uninterrupted(const Any_execution& execution, Domain& do
   const Feature_parameters& features = values.features();
   Given_jets given;
   with_input_numbers(domain.graph(), imported, [&] { given = given_jets(imported, np); });
+  const Vertex_size_bounds bounds = vertex_size_bounds(domain.graph(), imported, np);
+  std::optional<Tolerance> tolerance = tolerance_of(execution, imported.mesh, imported.points, np);
+  values.swap_caps(execution, imported);
   const Reference_surface<Reconstruction> reference(execution, imported.mesh, imported.points, features, std::move(given));
-
-  std::optional<Tolerance> tolerance = tolerance_of(execution, reference, np);
 
   Adaptation_report report;
   const auto adapt = [&](const auto& background) {
@@ -137,7 +139,6 @@ Adaptation_report adapt_uninterrupted(const Any_execution& execution, Domain& do
     jets.write(domain);
     surface.release(execution);
   };
-  const Vertex_size_bounds bounds = vertex_size_bounds(domain.graph(), imported, np);
   with_input_numbers(domain.graph(), imported, [&] {
     with_background_within(execution, field, imported, reference, bounds, adapt);
   });

@@ -128,7 +128,8 @@ public:
     return squared_shape(a, b, c).is_at_least(q);
   }
 
-  /// Smallest cosine between the normal of the face and the surface normals of its corners; 1 if none of them has one.
+  /// Smallest cosine between the normal of the face and the surface normals of its corners; 1 if none of them has one, or
+  /// if the face is degenerate.
   /// Thin faces count as in `alignment_of_thin_face()`.
   double alignment(Index a, Index b, Index c) const
   {
@@ -139,7 +140,7 @@ public:
   {
     double least = 1;
     for (Index v : {a, b, c})
-      if (vertex_class(v) == Vertex_class::smooth) least = (std::min)(least, unit_normal.dot(normals[v]));
+      if (vertex_class(v) == Vertex_class::smooth) least = (std::min)(least, cosine_of_turn(unit_normal, normals[v]));
     return least < min_alignment && is_thin(a, b, c) ? alignment_of_thin_face(least) : least;
   }
 
@@ -158,9 +159,7 @@ public:
   /// Unit normal of the face, zero if it is degenerate.
   Vector_3 normal(Index a, Index b, Index c) const
   {
-    const Vector_3 n = (points[b] - points[a]).cross(points[c] - points[a]);
-    const double length = n.norm();
-    return length > 0 ? n / length : Vector_3(Vector_3::Zero());
+    return unit_normal(points[b] - points[a], points[c] - points[a]);
   }
 
   Vector_3 normal(Index h) const { return normal(mesh.source(h), mesh.target(h), mesh.apex(h)); }

@@ -234,7 +234,8 @@ private:
       if (!(quality > quality_limit && quality > 0) ||
           edge_length(surface_.metrics[d], surface_.metrics[x], to_x) > length_limit ||
           edge_length(surface_.metrics[d], surface_.metrics[y], to_y) > length_limit ||
-          surface_.alignment(n, d, x, y) < alignment_limit || n.dot(surface_.normal(f.halfedge)) < min_turn_of_collapse ||
+          surface_.alignment(n, d, x, y) < alignment_limit ||
+          cosine_of_turn(n, surface_.normal(f.halfedge)) < min_turn_of_collapse ||
           is_folded(n, Mesh_view::next(f.halfedge)))
         return false;
     }

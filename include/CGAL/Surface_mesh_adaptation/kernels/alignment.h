@@ -42,6 +42,25 @@ inline bool is_thin(const Vector_3& e1, const Vector_3& e2, const Vector_3& n)
   return n.squaredNorm() < max_thin_height * max_thin_height * longest * longest;
 }
 
+/// Height of a degenerate face, at most, in lengths of its longest edge: where its normal points is a matter of
+/// rounding, and nothing follows from that.
+constexpr double max_degenerate_height = 1e-6;
+
+/// Unit normal of the triangle with the edge vectors `e1`, `e2` from its first corner; zero if it is degenerate.
+inline Vector_3 unit_normal(const Vector_3& e1, const Vector_3& e2)
+{
+  const Vector_3 n = e1.cross(e2);
+  const double length = n.norm();
+  const bool is_degenerate = length <= max_degenerate_height * (std::max)(e1.squaredNorm(), e2.squaredNorm());
+  return is_degenerate ? Vector_3(Vector_3::Zero()) : Vector_3(n / length);
+}
+
+/// Cosine between the unit normals of two faces; 1 if one of them is degenerate.
+inline double cosine_of_turn(const Vector_3& m, const Vector_3& n)
+{
+  return m == Vector_3::Zero() || n == Vector_3::Zero() ? 1 : m.dot(n);
+}
+
 /// How a face with the normal `n`, as long as `length`, stands to the surface normals at its corners, of which those of
 /// corners on curves are zero.
 struct Corner_products
