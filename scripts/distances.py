@@ -73,6 +73,14 @@ def samples(points, faces, sides):
     return numpy.einsum("sk,fkx->fsx", weights, points[faces]).reshape(-1, 3)
 
 
+def sampled(points, faces, least):
+    """At least so many points on a mesh."""
+    sides = 1
+    while len(faces) * (sides + 1) * (sides + 2) // 2 < least:
+        sides += 1
+    return samples(points, faces, sides)
+
+
 def run(command):
     """How long it took; none if it failed or takes too long."""
     start = time.time()
