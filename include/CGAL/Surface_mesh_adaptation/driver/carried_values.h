@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/driver/face_labels.h>
 #include <CGAL/Surface_mesh_adaptation/driver/kept_properties.h>
 #include <CGAL/Surface_mesh_adaptation/driver/unpack_parameters.h>
+#include <CGAL/Surface_mesh_adaptation/surface/swap_caps.h>
 
 #include <tuple>
 #include <type_traits>
@@ -45,6 +46,15 @@ public:
 
   const Feature_parameters& features() const { return features_; }
 
+  /// Swaps the caps of `imported`, see `surface/swap_caps.h`. Those of a part stay, for others may be beside them.
+  template <class Execution>
+  void swap_caps(const Execution& execution, Imported_mesh<Graph>& imported)
+  {
+    if (Domain::is_part) return;
+    swapped_ =
+      Surface_mesh_adaptation::swap_caps(execution, imported.mesh, imported.points, features_.halfedge_constraint);
+  }
+
   /// Whether face `f` of the result takes the place of faces of the domain.
   bool is_inside(const Mesh_view& mesh, Index f) const { return labels_.is_inside(mesh, f); }
 
@@ -53,6 +63,7 @@ public:
   void prepare(const Execution& execution, const Surface& surface)
   {
     below_ = faces_below(execution, surface, !at_faces_.empty() || decltype(origins_)::of_faces);
+    for (Index& f : below_) f = swapped_.face_before(f);
   }
 
   /// Writes them to the result.
@@ -64,7 +75,7 @@ public:
     labels_.write(domain_, surface.mesh, np_);
     at_vertices_.write(domain_, surface);
     at_faces_.write(domain_, below_);
-    at_corners_.write(domain_, surface);
+    at_corners_.write(domain_, surface, swapped_);
     origins_.write(domain_, surface, below_);
   }
 
@@ -78,6 +89,7 @@ private:
   Attributes_of<Corner_attributes, NamedParameters, internal_np::halfedge_attribute_maps_t> at_corners_;
   Origins<Graph, NamedParameters> origins_;
   Kept_properties<Domain> properties_;
+  Swapped_caps swapped_;
   Buffer<Index> below_; // of each face of the result the face of the input
 };
 

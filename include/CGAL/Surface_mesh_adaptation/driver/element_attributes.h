@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/driver/unpack_parameters.h>
 #include <CGAL/Surface_mesh_adaptation/execution/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/surface/sector_location.h>
+#include <CGAL/Surface_mesh_adaptation/surface/swap_caps.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
 
 #include <CGAL/boost/graph/properties.h>
@@ -131,23 +132,23 @@ public:
   }
 
   template <class Domain, class Surface>
-  void write(const Domain& domain, const Surface& surface)
+  void write(const Domain& domain, const Surface& surface, const Swapped_caps& swapped)
   {
     if (values_.empty()) return;
     domain.for_each_face([&](Index f, const auto& face) {
       Index h = 3 * f;
       for (const auto g : CGAL::halfedges_around_face(halfedge(face, domain.graph()), domain.graph()))
-        write_corner(g, location_in_sector(surface, Mesh_view::next(h++)));
+        write_corner(g, location_in_sector(surface, Mesh_view::next(h++)), swapped);
     });
   }
 
 private:
   /// Writes the values at `l` to the halfedge `g`.
   template <class Halfedge>
-  void write_corner(const Halfedge& g, const Location& l)
+  void write_corner(const Halfedge& g, const Location& l, const Swapped_caps& swapped)
   {
     const Attribute_weights w{1 - l.u - l.v, l.u, l.v};
-    const auto arriving = [&](Index i) { return Mesh_view::previous(3 * l.cell + i); };
+    const auto arriving = [&](Index i) { return Mesh_view::previous(swapped.corner_before(3 * l.cell + i)); };
     values_.for_each([&](const auto& map, const auto& values) {
       using Value = typename boost::property_traits<std::decay_t<decltype(map)>>::value_type;
       put(map, g, Attribute_interpolator<Value>()(w, values[arriving(0)].value, values[arriving(1)].value,

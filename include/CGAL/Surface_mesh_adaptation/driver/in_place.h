@@ -111,13 +111,11 @@ public:
     read();
     if (choose(np_, internal_np::avoid_self_intersections, false))
       guard_.emplace(imported_.mesh, imported_.points, surroundings_);
-    const Vertex_size_bounds bounds = vertex_size_bounds(domain_.graph(), imported_, np_);
-    const std::vector<double> deviations = face_deviations(domain_.graph(), imported_, np_);
     for (bool is_done = false; !is_done;) {
       const Reference reference(execution_, imported_.mesh, imported_.points,
                                 guard_ ? guard_->constrained(values_->features()) : values_->features(), given_);
       with_input_numbers(domain_.graph(), imported_, [&] {
-        with_background_within(execution_, field_, Field_input{imported_.vertices, deviations}, reference, bounds,
+        with_background_within(execution_, field_, Field_input{imported_.vertices, deviations_}, reference, bounds_,
                                [&](const auto& background) { is_done = adapt_to(reference, background); });
       });
       const Effect_of_interruption count_all(execution_.interruption(), Interruption::Effect::none);
@@ -153,6 +151,9 @@ private:
       domain_.surroundings(points_, [this](const Mesh_view& mesh, Index f) { return values_->is_inside(mesh, f); });
     intersections_.are_counted = choose(np_, internal_np::count_self_intersections, false);
     if (intersections_.are_counted) intersections_.before = count_intersections(imported_);
+    bounds_ = vertex_size_bounds(domain_.graph(), imported_, np_);
+    deviations_ = face_deviations(domain_.graph(), imported_, np_);
+    values_->swap_caps(execution_, imported_);
   }
 
   template <class Mesh>
@@ -268,6 +269,8 @@ private:
   std::optional<Tolerance> tolerance_;
   std::optional<Self_intersection_guard> guard_;
   Surroundings surroundings_;
+  Vertex_size_bounds bounds_;
+  std::vector<double> deviations_; // that each face of the input asks for
   Self_intersection_counts intersections_;
   Size_limits limits_; // of an attempt before, with finer sizes where faces met
   Adaptation_report report_;

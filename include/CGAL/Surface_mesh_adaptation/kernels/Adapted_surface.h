@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/fields/tightened_metric.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Self_intersection_guard.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Tolerance.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/alignment.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/protected_sizes.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/metric/metric.h>
@@ -125,9 +126,7 @@ public:
   /// Unit normal of the face, zero if it is degenerate.
   Vector_3 normal(Index a, Index b, Index c) const
   {
-    const Vector_3 n = (points[b] - points[a]).cross(points[c] - points[a]);
-    const double length = n.norm();
-    return length > 0 ? n / length : Vector_3(Vector_3::Zero());
+    return unit_normal(points[b] - points[a], points[c] - points[a]);
   }
 
   Vector_3 normal(Index h) const { return normal(mesh.source(h), mesh.target(h), mesh.apex(h)); }

@@ -237,7 +237,7 @@ private:
           edge_length(surface_.metrics[d], surface_.metrics[x], to_x) > length_limit ||
           edge_length(surface_.metrics[d], surface_.metrics[y], to_y) > length_limit ||
           alignment_of_face(surface_, n, d, x, y) < alignment_limit ||
-          n.dot(surface_.normal(f.halfedge)) < min_turn_of_collapse ||
+          cosine_of_turn(n, surface_.normal(f.halfedge)) < min_turn_of_collapse ||
           is_folded(n, Mesh_view::next(f.halfedge)))
         return false;
     }

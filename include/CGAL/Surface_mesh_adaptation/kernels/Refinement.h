@@ -310,9 +310,12 @@ private:
     for (std::size_t i = 0; i < 3; ++i) v[i] = plan.vertex_of_label(f, labels[i]);
     const Vector_3 e1 = points_[v[1]] - points_[v[0]], e2 = points_[v[2]] - points_[v[0]], normal = e1.cross(e2);
     const double length = normal.norm();
+    const bool is_parent_degenerate = parent == Vector_3::Zero();
+    if (is_parent_degenerate && unit_normal(e1, e2) == Vector_3::Zero()) return true;
     if (normal.dot(parent) > in_plane * length) return true; // at sharp edges that are no features normals say little
     const Corner_products products(normal, length, {&normals_[v[0]], &normals_[v[1]], &normals_[v[2]]});
-    if (normal.dot(parent) > min_turn * length && products.least >= limit * length) return true;
+    const bool is_turned = !is_parent_degenerate && normal.dot(parent) <= min_turn * length;
+    if (!is_turned && products.least >= limit * length) return true;
     return is_anisotropic<Metric> && products.is_smooth && length > 0 && is_thin(e1, e2, normal) &&
            alignment_of_thin_face(products.least / length) >= limit;
   }

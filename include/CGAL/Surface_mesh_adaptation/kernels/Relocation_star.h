@@ -77,9 +77,10 @@ struct Relocation_star
       const double q = internal::squared_shape(v.metric, a.metric, b.metric, ea, eb, n).quality();
       s.worst = (std::min)(s.worst, q);
       const Corner_products products(n, length, {&v.normal, &a.normal, &b.normal});
-      double alignment = length > 0 ? products.least / length : -1;
+      const bool is_degenerate = unit_normal(ea, eb) == Vector_3::Zero();
+      double alignment = is_degenerate ? 1 : products.least / length;
       const bool is_smooth = v.location.kind == Vertex_class::smooth;
-      s.flatness = (std::min)(s.flatness, is_smooth && length > 0 ? n.dot(v.normal) / length : alignment);
+      s.flatness = (std::min)(s.flatness, is_smooth && !is_degenerate ? n.dot(v.normal) / length : alignment);
       if (is_anisotropic<Metric> && products.is_smooth && is_thin(ea, eb, n))
         alignment = alignment_of_thin_face(alignment);
       s.alignment = (std::min)(s.alignment, alignment);

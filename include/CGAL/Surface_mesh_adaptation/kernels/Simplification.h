@@ -197,7 +197,7 @@ private:
       const double new_quality = surface_.quality(d, f.x, f.y);
       const Vector_3 n = surface_.normal(d, f.x, f.y);
       is_flat = is_flat && is_flat_face(surface_, n, d, f.x, f.y);
-      if (!(new_quality > quality_limit && new_quality > 0 && is_fit(f.x) && is_fit(f.y) &&
+      if (!((new_quality > quality_limit || n == Vector_3::Zero()) && is_fit(f.x) && is_fit(f.y) &&
             is_upright(f, n, s, d, alignment_limit)))
         return false;
     }
@@ -207,14 +207,27 @@ private:
   }
 
   /// Whether the face with the normal `n` that replaces `f` when `s` vanishes in `d` turns far neither from `f`, unless
-  /// both are thin, nor from the surface at its corners and at `s`.
+  /// both are thin, nor from the surface at its corners and at `s`. Only degenerate faces become degenerate.
   bool is_upright(const typename Star::Face& f, const Vector_3& n, Index s, Index d, double limit) const
   {
     if (alignment_of_face(surface_, n, d, f.x, f.y) < limit) return false;
+    if (n == Vector_3::Zero()) return is_in_order(f, s, d);
     const double at_s = surface_.vertex_class(s) == Vertex_class::smooth ? n.dot(surface_.normals[s]) : 1;
-    if (n.dot(f.normal) >= min_turn_of_collapse && at_s >= limit) return true;
+    if (cosine_of_turn(n, f.normal) >= min_turn_of_collapse && at_s >= limit) return true;
     return is_thin_face(surface_, d, f.x, f.y) && is_thin_face(surface_, s, f.x, f.y) &&
            alignment_of_thin_face(at_s) >= limit;
+  }
+
+  /// Whether the corner of the degenerate face `f` that lies between the others still does if `d` takes the place of
+  /// `s`: else faces around it would be turned over.
+  bool is_in_order(const typename Star::Face& f, Index s, Index d) const
+  {
+    const auto middle = [&](Index v) {
+      const Vector_3 &p = surface_.points[v], &x = surface_.points[f.x], &y = surface_.points[f.y];
+      const double at_v = (x - p).dot(y - p), at_x = (p - x).dot(y - x), at_y = (p - y).dot(x - y);
+      return at_v < (std::min)(at_x, at_y) ? 0 : at_x < at_y ? 1 : 2;
+    };
+    return f.normal == Vector_3::Zero() && middle(s) == middle(d);
   }
 
   /// Whether the edges that a collapse creates fit the metric less than those that it removes.

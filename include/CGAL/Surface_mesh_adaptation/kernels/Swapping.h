@@ -71,7 +71,8 @@ public:
       return 0;
     const double before = (std::min)(surface_.quality(p, q, b), surface_.quality(q, p, a));
     const double after = (std::min)(surface_.quality(a, b, p), surface_.quality(b, a, q));
-    const bool better = after > before * min_improvement;
+    const bool better = is_degenerate(before) ? !is_degenerate(after) || is_much_shorter(a, b, p, q)
+                                              : after > before * min_improvement;
     if (!better && !(thresholds_.equalize_degrees && after > min_degree_swap_quality &&
                      after > max_quality_loss * before))
       return 0;
@@ -99,6 +100,8 @@ private:
   static constexpr double min_degree_swap_quality = 0.55; // degrees matter only among good faces
   static constexpr double max_quality_loss = 0.7;
   static constexpr double min_turn = 0.5;
+  static constexpr double degenerate_quality = 1e-5; // below, one face is as bad as another
+  static constexpr double max_share = 0.99; // of the length of an edge between such faces
 
   /// Works through the edges from `v` to larger ids that lie in the block; whether some do not.
   bool sweep_edges_of(Index v, const Block& block, Sweep_counts& counts)
@@ -194,18 +197,21 @@ private:
   {
     const Index t = mesh_.twin[h];
     const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
-    if (surface_.length(a, b) > (std::max)(thresholds_.max_length, surface_.length(p, q))) return false;
+    const double length = surface_.length(a, b);
+    if (length > (std::max)(thresholds_.max_length, surface_.length(p, q)) && length > length_beside_degenerate_face(h))
+      return false;
     const Vector_3 old1 = surface_.normal(p, q, b), old2 = surface_.normal(q, p, a);
     const Vector_3 new1 = surface_.normal(a, b, p), new2 = surface_.normal(b, a, q);
     const double limit = least_alignment_after((std::min)(alignment_of_face(surface_, old1, p, q, b),
                                                           alignment_of_face(surface_, old2, q, p, a)));
     if (alignment_of_face(surface_, new1, a, b, p) < limit || alignment_of_face(surface_, new2, b, a, q) < limit)
       return false;
-    const double turn = (std::min)(min_turn, old1.dot(old2));
+    if (old1 == Vector_3::Zero() && old2 == Vector_3::Zero() && !is_convex(p, q, a, b)) return false;
+    const double turn = (std::min)(min_turn, cosine_of_turn(old1, old2));
     const bool is_thin = is_thin_face(surface_, p, q, b) && is_thin_face(surface_, q, p, a) &&
                          is_thin_face(surface_, a, b, p) && is_thin_face(surface_, b, a, q);
-    if (!is_thin &&
-        (std::min)({new1.dot(old1), new1.dot(old2), new2.dot(old1), new2.dot(old2), new1.dot(new2)}) < turn)
+    if (!is_thin && (std::min)({cosine_of_turn(new1, old1), cosine_of_turn(new1, old2), cosine_of_turn(new2, old1),
+                                cosine_of_turn(new2, old2), cosine_of_turn(new1, new2)}) < turn)
       return false;
     if (surface_.tolerance && !keeps_tolerance(h)) return false;
     if (is_thin || (is_flat_face(surface_, new1, a, b, p) && is_flat_face(surface_, new2, b, a, q))) return true;
@@ -214,6 +220,37 @@ private:
     const auto fold = [&](Index e, const Vector_3& n) { return fold_across(surface_, e, n); };
     return (std::min)({fold(hn, new2), fold(hp, new1), fold(tn, new1), fold(tp, new2)}) >=
            (std::min)({min_fold, fold(hn, old1), fold(hp, old1), fold(tn, old2), fold(tp, old2)});
+  }
+
+  static bool is_degenerate(double quality) { return quality < degenerate_quality; }
+
+  /// Degenerate faces get at good ones step by step, while the edges between them get shorter.
+  bool is_much_shorter(Index a, Index b, Index p, Index q) const
+  {
+    return surface_.length(a, b) < max_share * surface_.length(p, q);
+  }
+
+  /// The length that the other diagonal may have if one of the faces at `h` is degenerate, else 0: that of any of their
+  /// edges, since in space it is shorter than the longest one.
+  double length_beside_degenerate_face(Index h) const
+  {
+    const auto is_degenerate_at = [&](Index g) {
+      return is_degenerate(surface_.quality(mesh_.source(g), mesh_.target(g), mesh_.apex(g)));
+    };
+    double longest = 0;
+    if (is_degenerate_at(h) || is_degenerate_at(mesh_.twin[h]))
+      for (const Index g : {h, mesh_.twin[h]})
+        longest = (std::max)({longest, surface_.length(Mesh_view::next(g)), surface_.length(Mesh_view::previous(g))});
+    return longest;
+  }
+
+  /// Whether the other diagonal of four points in line leaves no face turned over: neither end of the edge from `p` to
+  /// `q` lies between the other end and both `a` and `b`.
+  bool is_convex(Index p, Index q, Index a, Index b) const
+  {
+    const Vector_3 &start = surface_.points[p], e = surface_.points[q] - start;
+    const double ta = e.dot(surface_.points[a] - start), tb = e.dot(surface_.points[b] - start);
+    return (std::min)(ta, tb) < e.squaredNorm() && (std::max)(ta, tb) > 0;
   }
 
   bool keeps_tolerance(Index h) const

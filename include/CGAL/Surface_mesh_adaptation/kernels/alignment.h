@@ -44,6 +44,25 @@ inline bool is_thin(const Vector_3& e1, const Vector_3& e2, const Vector_3& n)
   return n.squaredNorm() < max_thin_height * max_thin_height * longest * longest;
 }
 
+/// Height of a degenerate face, at most, in lengths of its longest edge: where its normal points is a matter of
+/// rounding, and nothing follows from that.
+constexpr double max_degenerate_height = 1e-6;
+
+/// Unit normal of the triangle with the edge vectors `e1`, `e2` from its first corner; zero if it is degenerate.
+inline Vector_3 unit_normal(const Vector_3& e1, const Vector_3& e2)
+{
+  const Vector_3 n = e1.cross(e2);
+  const double length = n.norm();
+  const bool is_degenerate = length <= max_degenerate_height * (std::max)(e1.squaredNorm(), e2.squaredNorm());
+  return is_degenerate ? Vector_3(Vector_3::Zero()) : Vector_3(n / length);
+}
+
+/// Cosine between the unit normals of two faces; 1 if one of them is degenerate.
+inline double cosine_of_turn(const Vector_3& m, const Vector_3& n)
+{
+  return m == Vector_3::Zero() || n == Vector_3::Zero() ? 1 : m.dot(n);
+}
+
 /// How a face with the normal `n`, as long as `length`, stands to the surface normals at its corners, of which those of
 /// corners on curves are zero.
 struct Corner_products
@@ -92,7 +111,8 @@ bool is_thin_face(const Surface& surface, Index a, Index b, Index c)
   return is_thin_face(surface, surface.points[a], a, b, c);
 }
 
-/// Smallest cosine between the normal of the face and the surface normals of its corners; 1 if none of them has one.
+/// Smallest cosine between the normal of the face and the surface normals of its corners; 1 if none of them has one, or if
+/// the face is degenerate.
 /// Thin faces count as in `alignment_of_thin_face()`.
 template <class Surface>
 double alignment_of_face(const Surface& surface, const Vector_3& unit_normal, Index a, Index b, Index c)
@@ -100,7 +120,7 @@ double alignment_of_face(const Surface& surface, const Vector_3& unit_normal, In
   double least = 1;
   for (Index v : {a, b, c})
     if (surface.vertex_class(v) == Vertex_class::smooth)
-      least = (std::min)(least, unit_normal.dot(surface.normals[v]));
+      least = (std::min)(least, cosine_of_turn(unit_normal, surface.normals[v]));
   return least < min_alignment && is_thin_face(surface, a, b, c) ? alignment_of_thin_face(least) : least;
 }
 

@@ -17,13 +17,15 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 
 /// The unit vector next to `normal` that is orthogonal to the unit vectors `s` and `t`; where that is more than 30
-/// degrees away, because they are nearly parallel or `normal` is wrong, only what `normal` has along each is removed.
+/// degrees away because `normal` is wrong, and where they are parallel within one, so that rounding decides what is
+/// orthogonal to both, only what `normal` has along each is removed.
 inline Vector_3 orthogonalized_normal(const Vector_3& normal, const Vector_3& s, const Vector_3& t)
 {
-  constexpr double least_squared_cosine = 0.75;
+  constexpr double least_squared_cosine = 0.75, least_squared_sine = 3e-4;
   const Vector_3 x = s.cross(t);
   const double along = x.dot(normal);
-  if (along * along > least_squared_cosine * x.squaredNorm()) return x.normalized() * (along < 0 ? -1.0 : 1.0);
+  if (x.squaredNorm() > least_squared_sine && along * along > least_squared_cosine * x.squaredNorm())
+    return x.normalized() * (along < 0 ? -1.0 : 1.0);
   Vector_3 n = normal - normal.dot(s) * s;
   n -= n.dot(t) * t;
   return n.squaredNorm() > 0 ? Vector_3(n.normalized()) : normal;

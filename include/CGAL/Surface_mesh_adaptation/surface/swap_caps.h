@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Caps: faces of which one corner lies on the opposite edge but for rounding, as tessellations of CAD systems have them
+// where the vertices of one face end on an edge of another. Where a cap's normal points is a matter of rounding, and
+// features and normals that are estimated with it go astray. So before anything is estimated, caps give their longest
+// edge for the other diagonal: their corner is put on the edge of the face behind.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_SWAP_CAPS_H
+#define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_SWAP_CAPS_H
+
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// Where the corners and faces of a mesh come from whose caps were swapped. Both tables are empty where none was.
+struct Swapped_caps
+{
+  std::vector<Index> corners; ///< for each halfedge one that had the corner at its source
+  std::vector<Index> faces;   ///< for each face the one whose plane it lies in
+
+  Index corner_before(Index h) const { return corners.empty() ? h : corners[h]; }
+  Index face_before(Index f) const { return faces.empty() ? f : faces[f]; }
+};
+
+class Cap_swapping
+{
+public:
+  /// `constraints` has a value for each halfedge, or none at all.
+  Cap_swapping(Mesh_view& mesh, const std::vector<Vector_3>& points, std::vector<Edge_constraint>& constraints)
+    : mesh_(mesh), points_(points), constraints_(constraints)
+  {}
+
+  /// Swaps until no cap can be mended. Those that lie one upon the other get at good faces step by step, while the
+  /// edges between them get shorter.
+  template <class Execution>
+  Swapped_caps run(const Execution& execution)
+  {
+    std::vector<Index> caps = pack(execution, mesh_.number_of_faces(), [&](std::size_t f) { return is_cap(Index(f)); });
+    std::size_t left = max_swaps * caps.size();
+    for (bool is_changed = true; is_changed && left > 0;) {
+      is_changed = false;
+      for (std::size_t i = 0; i < caps.size() && left > 0; ++i) {
+        const Index h = longest_edge(caps[i]);
+        if (!is_cap(caps[i]) || !is_mended_by_swap(h)) continue;
+        if (is_cap(Mesh_view::face(mesh_.twin[h]))) caps.push_back(Mesh_view::face(mesh_.twin[h]));
+        swap(h);
+        is_changed = true;
+        --left;
+      }
+    }
+    return std::move(origins_);
+  }
+
+private:
+  static constexpr double max_height = 1e-4;   // of a cap, in lengths of its longest edge
+  static constexpr double max_share = 0.99;    // of the length of an edge between two caps
+  static constexpr double max_turn = 0.9;      // cosine between a face and those that take its place
+  static constexpr std::size_t max_swaps = 16; // for each cap: so this ends
+
+  const Vector_3& point(Index v) const { return points_[v]; }
+
+  /// In lengths of the longest edge.
+  static double height(const Vector_3& a, const Vector_3& b, const Vector_3& c)
+  {
+    const double squared = (std::max)({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    return squared > 0 ? (b - a).cross(c - a).norm() / squared : 0;
+  }
+
+  double height(Index f) const
+  {
+    return height(point(mesh_.corner[3 * f]), point(mesh_.corner[3 * f + 1]), point(mesh_.corner[3 * f + 2]));
+  }
+
+  bool is_cap(Index f) const { return height(f) < max_height; }
+
+  double length(Index a, Index b) const { return (point(b) - point(a)).norm(); }
+
+  Index longest_edge(Index f) const
+  {
+    const auto is_shorter = [&](Index g, Index h) {
+      return length(mesh_.source(g), mesh_.target(g)) < length(mesh_.source(h), mesh_.target(h));
+    };
+    const std::array<Index, 3> edges{3 * f, 3 * f + 1, 3 * f + 2};
+    return *std::max_element(edges.begin(), edges.end(), is_shorter);
+  }
+
+  Vector_3 normal(Index a, Index b, Index c) const
+  {
+    return (point(b) - point(a)).cross(point(c) - point(a)).normalized();
+  }
+
+  /// Whether the cap at the longest edge `h` is mended by a swap, or gets nearer to that together with another one.
+  bool is_mended_by_swap(Index h) const
+  {
+    const Index t = mesh_.twin[h];
+    if (t == no_index || (!constraints_.empty() && constraints_[h] != Edge_constraint::none)) return false;
+    const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
+    if (mesh_.are_adjacent(a, b)) return false;
+    if (is_cap(Mesh_view::face(t))) return length(a, b) < max_share * length(p, q);
+    const double after = (std::min)(height(point(a), point(b), point(p)), height(point(b), point(a), point(q)));
+    const Vector_3 plane = normal(q, p, a);
+    return after > height(Mesh_view::face(h)) && plane.dot(normal(a, b, p)) > max_turn &&
+           plane.dot(normal(b, a, q)) > max_turn;
+  }
+
+  void swap(Index h)
+  {
+    const Index t = mesh_.twin[h], f = Mesh_view::face(h), g = Mesh_view::face(t);
+    const Index hn = Mesh_view::next(h), hp = Mesh_view::previous(h);
+    const Index tn = Mesh_view::next(t), tp = Mesh_view::previous(t);
+    mesh_.flip(h);
+    if (!constraints_.empty()) { // the outer edges move on by one
+      auto& c = constraints_;
+      const Edge_constraint first = c[hn];
+      c[hn] = std::exchange(c[hp], std::exchange(c[tn], std::exchange(c[tp], first)));
+    }
+    if (origins_.faces.empty()) start_origins();
+    // the corners p, q, b of the cap and q, p, a of the face behind become a, b, p and b, a, q
+    auto& corner = origins_.corners;
+    const Index of_b = corner[hp], of_a = corner[tp], of_p = corner[tn], of_q = corner[t];
+    corner[h] = corner[tn] = of_a;
+    corner[hn] = corner[t] = of_b;
+    corner[hp] = of_p;
+    corner[tp] = of_q;
+    origins_.faces[f] = origins_.faces[g];
+  }
+
+  void start_origins()
+  {
+    origins_.corners.resize(mesh_.number_of_halfedges());
+    origins_.faces.resize(mesh_.number_of_faces());
+    std::iota(origins_.corners.begin(), origins_.corners.end(), Index(0));
+    std::iota(origins_.faces.begin(), origins_.faces.end(), Index(0));
+  }
+
+  Mesh_view& mesh_;
+  const std::vector<Vector_3>& points_;
+  std::vector<Edge_constraint>& constraints_;
+  Swapped_caps origins_;
+};
+
+/// Swaps the longest edges of caps where that changes the shape by less than their height. Boundaries and constrained
+/// edges stay; `constraints` has a value for each halfedge, or none at all.
+/// \complexity O(n), and the swaps one after the other
+template <class Execution>
+Swapped_caps swap_caps(const Execution& execution, Mesh_view& mesh, const std::vector<Vector_3>& points,
+                       std::vector<Edge_constraint>& constraints)
+{
+  return Cap_swapping(mesh, points, constraints).run(execution);
+}
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_SURFACE_SWAP_CAPS_H

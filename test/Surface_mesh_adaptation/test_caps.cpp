@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Caps and needles in tessellations: bands of points in line between faces, rows of vertices on straight edges and in
+// flat faces, lofts of long facets. Random, and nothing of them may be left in the result.
+
+#include "shapes.h"
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace {
+
+namespace SMA = CGAL::Surface_mesh_adaptation;
+using shapes::Index;
+using shapes::pi;
+using shapes::Random;
+using shapes::Soup;
+using shapes::Vector_3;
+using Surface_mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
+using Polygon = std::vector<Index>;
+
+const SMA::Sequential_execution sequential;
+
+Index add(Soup& soup, const Vector_3& p)
+{
+  soup.points.push_back(p);
+  return Index(soup.points.size() - 1);
+}
+
+double height(const Vector_3& a, const Vector_3& b, const Vector_3& c)
+{
+  return (b - a).cross(c - a).norm() / (std::max)({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+}
+
+/// Cuts a convex polygon into triangles along random diagonals, of heights from `least` on where that is possible: with
+/// 0 also along those that lie on its border.
+void triangulate(Random& random, Polygon p, double least, Soup& soup)
+{
+  for (int attempts = 0; p.size() > 3; ++attempts) {
+    const std::size_t n = p.size(), i = random.below(n);
+    const Index a = p[(i + n - 1) % n], b = p[i], c = p[(i + 1) % n];
+    if (attempts < 1000 && height(soup.points[a], soup.points[b], soup.points[c]) < least) continue;
+    soup.triangles.push_back({a, b, c});
+    p.erase(p.begin() + std::ptrdiff_t(i));
+  }
+  soup.triangles.push_back({p[0], p[1], p[2]});
+}
+
+/// The points from `from` to `to`, both included, with up to four between, off the line by up to `noise` along `side`.
+Polygon chain(Random& random, Soup& soup, Index from, Index to, double noise, const Vector_3& side)
+{
+  std::vector<double> places(1 + random.below(4));
+  for (double& t : places) t = random.real(0.03, 0.97);
+  std::sort(places.begin(), places.end());
+  Polygon result{from};
+  for (const double t : places) {
+    const Vector_3 p = (1 - t) * soup.points[from] + t * soup.points[to];
+    result.push_back(add(soup, p + noise * random.real() * side));
+  }
+  result.push_back(to);
+  return result;
+}
+
+/// Joins the corners of a chain to two others: those of the side of a rectangle to the ends of the opposite one.
+void join(Random& random, const Polygon& chain, Index beside_last, Index beside_first, Soup& soup)
+{
+  const std::size_t k = random.below(chain.size());
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i)
+    soup.triangles.push_back({chain[i], chain[i + 1], i < k ? beside_first : beside_last});
+  soup.triangles.push_back({chain[k], beside_last, beside_first});
+}
+
+/// Two rectangles with the sides 10 and 4 that meet at an angle of `turn` along the x axis, where each has vertices of
+/// its own, off the line by up to `noise`, with a band of caps between.
+Soup hinge(Random& random, double turn, double noise)
+{
+  Soup soup;
+  const Vector_3 up(0, std::cos(turn), std::sin(turn)), down(0, -1, 0);
+  const Index start = add(soup, {0, 0, 0}), end = add(soup, {10, 0, 0});
+  const Polygon above = chain(random, soup, start, end, noise, up);
+  const Polygon below = chain(random, soup, start, end, noise, down);
+  const Polygon down_from_end(below.rbegin(), below.rend());
+  join(random, above, add(soup, Vector_3(10, 0, 0) + 4 * up), add(soup, 4 * up), soup);
+  join(random, down_from_end, add(soup, 4 * down), add(soup, Vector_3(10, 0, 0) + 4 * down), soup);
+  Polygon band = below;
+  band.insert(band.end(), above.rbegin() + 1, above.rend() - 1);
+  triangulate(random, band, 0, soup);
+  return soup;
+}
+
+/// A prism over a regular polygon with `n` sides, with rows of points on all edges of the bottom and top.
+Soup prism(Random& random, std::size_t n, double height, double noise)
+{
+  Soup soup;
+  std::vector<Index> low, high;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = 2 * pi * double(i) / double(n);
+    low.push_back(add(soup, {std::cos(angle), std::sin(angle), 0}));
+    high.push_back(add(soup, {std::cos(angle), std::sin(angle), height}));
+  }
+  Polygon bottom, top;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    Polygon below = chain(random, soup, low[i], low[j], noise, random.vector()),
+            above = chain(random, soup, high[i], high[j], noise, random.vector());
+    top.insert(top.end(), above.begin(), above.end() - 1);
+    bottom.insert(bottom.begin(), below.rbegin(), below.rend() - 1);
+    Polygon side = below;
+    side.insert(side.end(), above.rbegin(), above.rend());
+    triangulate(random, side, 0, soup);
+  }
+  triangulate(random, top, 0.02, soup);
+  triangulate(random, bottom, 0.02, soup);
+  return soup;
+}
+
+/// Long facets from a square with the sides 2, whose sides are cut into `k` edges, to a circle with the radius .6.
+Soup loft(std::size_t k, double height)
+{
+  Soup soup;
+  Polygon low, high;
+  for (std::size_t i = 0; i < 4 * k; ++i) {
+    const double angle = 2 * pi * double(i) / double(4 * k), t = 2 * double(i % k) / double(k) - 1;
+    const Vector_3 side[] = {{1, t, 0}, {-t, 1, 0}, {-1, -t, 0}, {t, -1, 0}};
+    low.push_back(add(soup, side[i / k]));
+    high.push_back(add(soup, {0.6 * std::cos(angle - pi / 4), 0.6 * std::sin(angle - pi / 4), height}));
+  }
+  for (std::size_t i = 0; i < 4 * k; ++i) {
+    const std::size_t j = (i + 1) % (4 * k);
+    soup.triangles.push_back({low[i], low[j], high[i]});
+    soup.triangles.push_back({low[j], high[j], high[i]});
+  }
+  const Index below = add(soup, {0, 0, 0}), above = add(soup, {0, 0, height});
+  for (std::size_t i = 0; i < 4 * k; ++i) {
+    const std::size_t j = (i + 1) % (4 * k);
+    soup.triangles.push_back({low[j], low[i], below});
+    soup.triangles.push_back({high[i], high[j], above});
+  }
+  return soup;
+}
+
+Soup adapted(const Soup& soup, double size)
+{
+  auto mesh = shapes::mesh<Surface_mesh>(soup);
+  SMA::adapt_surface_mesh(sequential, mesh, SMA::Uniform_metric_field(size));
+  return shapes::soup(mesh);
+}
+
+struct Extremes
+{
+  double least_height = 1e300, longest_edge = 0;
+};
+
+Extremes extremes(const Soup& soup)
+{
+  Extremes e;
+  for (const shapes::Triangle& t : soup.triangles) {
+    const Vector_3 &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
+    const double longest = (std::max)({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    e.least_height = (std::min)(e.least_height, (b - a).cross(c - a).norm() / longest);
+    e.longest_edge = (std::max)(e.longest_edge, longest);
+  }
+  return e;
+}
+
+void expect_no_cap(const Soup& result, double size, double least_height)
+{
+  const Extremes e = extremes(result);
+  EXPECT_GE(e.least_height, least_height * size);
+  EXPECT_LE(e.longest_edge, 2 * size);
+}
+
+TEST(Caps, between_facets_vanish)
+{
+  Random random(1);
+  for (const double degrees : {0, 60, 100})
+    for (const double noise : {0.0, 1e-7, 1e-5})
+      for (int i = 0; i < 10; ++i) {
+        SCOPED_TRACE(std::to_string(degrees) + " degrees, noise " + std::to_string(noise) + ", " + std::to_string(i));
+        const double turn = degrees * pi / 180;
+        const Soup result = adapted(hinge(random, turn, noise), 0.4);
+        expect_no_cap(result, 0.4, 0.1);
+        for (const Vector_3& p : result.points) {
+          const double d = p[1] * std::sin(turn) - p[2] * std::cos(turn);
+          EXPECT_LE((std::min)(std::abs(p[2]), std::abs(d)), 0.02 + 2 * noise);
+        }
+      }
+}
+
+TEST(Caps, in_faces_and_on_edges_of_prisms_vanish)
+{
+  Random random(2);
+  for (const std::size_t n : {3, 4, 7})
+    for (const double noise : {0.0, 1e-7, 1e-5})
+      for (int i = 0; i < 10; ++i) {
+        SCOPED_TRACE(std::to_string(n) + " sides, noise " + std::to_string(noise) + ", " + std::to_string(i));
+        expect_no_cap(adapted(prism(random, n, 2, noise), 0.2), 0.2, 0.05);
+      }
+}
+
+TEST(Caps, do_not_come_from_the_facets_of_lofts)
+{
+  for (const std::size_t k : {2, 5, 16})
+    for (const double height : {0.5, 2.0, 10.0}) {
+      SCOPED_TRACE(std::to_string(k) + ", " + std::to_string(height));
+      expect_no_cap(adapted(loft(k, height), 0.1), 0.1, 0.1);
+    }
+}
+
+TEST(Caps, give_their_place_to_the_values_of_the_faces_beside_them)
+{
+  Random random(3);
+  for (int i = 0; i < 10; ++i) {
+    SCOPED_TRACE(i);
+    auto mesh = shapes::mesh<Surface_mesh>(hinge(random, 0, 0));
+    auto side = mesh.add_property_map<Surface_mesh::Face_index, int>("f:side").first;
+    auto place = mesh.add_property_map<Surface_mesh::Halfedge_index, double>("h:place").first;
+    for (const auto f : mesh.faces()) {
+      double sum = 0; // of the heights of the corners, which is 0 in a cap
+      for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+        const auto& p = mesh.point(mesh.target(h));
+        sum += p.y();
+        place[h] = 2 * p.x() - p.y();
+      }
+      side[f] = sum > 0 ? 1 : sum < 0 ? -1 : 0;
+    }
+    SMA::adapt_surface_mesh(sequential, mesh, SMA::Uniform_metric_field(0.4),
+                            SMA::parameters::face_attribute_maps(std::make_tuple(side))
+                              .halfedge_attribute_maps(std::make_tuple(place)));
+    for (const auto f : mesh.faces()) {
+      double sum = 0;
+      for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) {
+        const auto& p = mesh.point(mesh.target(h));
+        sum += p.y();
+        EXPECT_NEAR(place[h], 2 * p.x() - p.y(), 1e-6);
+      }
+      if (std::abs(sum) > 0.5) EXPECT_EQ(side[f], sum > 0 ? 1 : -1);
+      else EXPECT_NE(side[f], 0);
+    }
+  }
+}
+
+} // namespace
