@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <gtest/gtest.h>
@@ -140,6 +141,36 @@ TEST(Repair, leaves_good_input_alone)
     EXPECT_EQ(r.soup.triangles.size(), soup.triangles.size());
     EXPECT_NEAR(volume(r.soup), volume(soup), 1e-12);
   }
+}
+
+/// What is an oriented surface goes a short way, with the same result as by CGAL's functions for soups: faces start at the
+/// same corners, and vertices have the same halfedges, as far as anybody can tell.
+TEST(Repair, builds_good_input_as_cgal_does)
+{
+  for (const Soup& soup : {shapes::sphere(2), shapes::torus(20, 9), shapes::square(5), shapes::open_cylinder(9, 4, 1)}) {
+    const Input input(soup);
+    const Repaired r = repaired(input);
+    Mesh expected;
+    CGAL::Polygon_mesh_processing::polygon_soup_to_polygon_mesh(input.points, input.polygons, expected);
+    EXPECT_TRUE(checks::is_identical(r.soup, soup_of(expected)));
+    const auto read = [](const Mesh& mesh) {
+      return SMA::internal::read_face_graph(SMA::Sequential_execution(), mesh, mesh.points()).mesh;
+    };
+    const SMA::Mesh_view ours = read(r.mesh), cgals = read(expected);
+    EXPECT_TRUE(std::equal(ours.corner.begin(), ours.corner.end(), cgals.corner.begin(), cgals.corner.end()));
+    EXPECT_TRUE(std::equal(ours.twin.begin(), ours.twin.end(), cgals.twin.begin(), cgals.twin.end()));
+    EXPECT_TRUE(std::equal(ours.outgoing.begin(), ours.outgoing.end(), cgals.outgoing.begin(), cgals.outgoing.end()));
+  }
+}
+
+TEST(Repair, leaves_out_a_copy_that_looks_the_other_way)
+{
+  Input input(shapes::tetrahedron());
+  input.points.resize(3);
+  input.polygons = {{0, 1, 2}, {2, 1, 0}}; // joined along all three edges
+  const Repaired r = repaired(input);
+  EXPECT_EQ(r.report.duplicate_faces.count, 1u);
+  EXPECT_EQ(r.soup.triangles.size(), 1u);
 }
 
 // Welding

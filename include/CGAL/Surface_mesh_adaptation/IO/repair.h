@@ -357,7 +357,7 @@ private:
   /// are whole again.
   void join(bool weld)
   {
-    Seam_finder seams(weld ? places_of(points_) : original_, triangles_);
+    Seam_finder seams(weld && may_have_seams() ? places_of(points_) : original_, triangles_);
     if (seams.found_any()) view_.reset();
     Disjoint_sets sets = seams.joined_points();
     for (std::size_t i = 0; i < triangles_.size() && seams.found_any(); ++i) {
@@ -368,6 +368,12 @@ private:
     seams.for_each_open_seam([&](std::uint32_t v, std::uint32_t w) {
       if (weld) report_.open_seams.add_edge(origin_[v], origin_[w]);
     });
+  }
+
+  /// A closed surface has none.
+  bool may_have_seams() const
+  {
+    return !view_ || std::find(view_->twin.begin(), view_->twin.end(), no_index) != view_->twin.end();
   }
 
   void report_joined_points(Disjoint_sets& sets)
