@@ -63,7 +63,7 @@ public:
   }
 
 private:
-  static constexpr double max_height = 1e-4;   // of a cap, in lengths of its longest edge
+  static constexpr double max_height = 1e-5;   // of a cap, in lengths of its longest edge
   static constexpr double max_share = 0.99;    // of the length of an edge between two caps
   static constexpr double max_turn = 0.9;      // cosine between a face and those that take its place
   static constexpr std::size_t max_swaps = 16; // for each cap: so this ends
