@@ -109,8 +109,7 @@ public:
   Adaptation_report run()
   {
     read();
-    if (choose(np_, internal_np::avoid_self_intersections, false))
-      guard_.emplace(imported_.mesh, imported_.points, surroundings_);
+    if (avoids_intersections()) guard_.emplace(imported_.mesh, imported_.points, surroundings_);
     for (bool is_done = false; !is_done;) {
       const Reference reference(execution_, imported_.mesh, imported_.points,
                                 guard_ ? guard_->constrained(values_->features()) : values_->features(), given_);
@@ -153,8 +152,10 @@ private:
     if (intersections_.are_counted) intersections_.before = count_intersections(imported_);
     bounds_ = vertex_size_bounds(domain_.graph(), imported_, np_);
     deviations_ = face_deviations(domain_.graph(), imported_, np_);
-    values_->swap_caps(execution_, imported_);
+    if (!avoids_intersections()) values_->swap_caps(execution_, imported_); // it may make faces meet
   }
+
+  bool avoids_intersections() const { return choose(np_, internal_np::avoid_self_intersections, false); }
 
   template <class Mesh>
   std::size_t count_intersections(const Mesh& m)
