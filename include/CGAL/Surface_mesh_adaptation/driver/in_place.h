@@ -110,7 +110,8 @@ public:
   {
     read();
     if (avoids_intersections()) guard_.emplace(imported_.mesh, imported_.points, surroundings_);
-    for (bool is_done = false; !is_done;) {
+    bool is_done = false;
+    while (!is_done) {
       const Reference reference(execution_, imported_.mesh, imported_.points,
                                 guard_ ? guard_->constrained(values_->features()) : values_->features(), given_);
       with_input_numbers(domain_.graph(), imported_, [&] {

@@ -105,7 +105,7 @@ public:
     if (2 * std::size_t(n) <= pairs.size()) return {};
     std::vector<double> factors(surface.mesh.number_of_vertices(), 1);
     for (const Face_pair& pair : pairs)
-      for (const std::size_t i : {0, 1}) {
+      for (std::size_t i = 0; i < 2; ++i) {
         const double of_face = wanted[pair[i]];
         if (of_face == 0 || (of_face > 1 && wanted[pair[1 - i]] < 1)) continue; // the other one is too far away
         for (Index h = 3 * pair[i]; h < 3 * pair[i] + 3; ++h) {
