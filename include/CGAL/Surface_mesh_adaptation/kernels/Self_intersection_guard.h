@@ -15,6 +15,7 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/metric/metric.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Patch.h>
 #include <CGAL/Surface_mesh_adaptation/surface/vertex_normals.h>
 
 #include <algorithm>
