@@ -219,14 +219,9 @@ public:
     std::array<Hit, 2> best;
     best[0].distance = best[1].distance = reach;
     const Vector_3 inverse = d.cwiseInverse();
-    boost::container::static_vector<std::pair<std::size_t, std::size_t>, 64> stack{{levels_.size() - 1, 0}};
-    while (!stack.empty()) {
-      const auto [level, index] = stack.back();
-      stack.pop_back();
-      if (!levels_[level][index].is_met(p, inverse, -best[1].distance, best[0].distance)) continue;
-      if (level == 0) visit_leaf(index, p, d, is_ignored, best);
-      else push_children(level, index, stack);
-    }
+    descend([&](std::size_t level, std::size_t index) {
+      return levels_[level][index].is_met(p, inverse, -best[1].distance, best[0].distance);
+    }, [&](std::size_t leaf_met) { visit_leaf(leaf_met, p, d, is_ignored, best); });
     for (Hit& hit : best)
       if (hit.distance == reach) hit = Hit();
     return best;
@@ -237,14 +232,9 @@ public:
   void for_each_pair_of_boxes(std::size_t leaf, const F& f) const
   {
     const Box& box = levels_[0][leaf];
-    boost::container::static_vector<std::pair<std::size_t, std::size_t>, 64> stack{{levels_.size() - 1, 0}};
-    while (!stack.empty()) {
-      const auto [level, index] = stack.back();
-      stack.pop_back();
-      if (((index + 1) << level) <= leaf || !levels_[level][index].meets(box)) continue;
-      if (level == 0) visit_pairs(leaf, index, f);
-      else push_children(level, index, stack);
-    }
+    descend([&](std::size_t level, std::size_t index) {
+      return ((index + 1) << level) > leaf && levels_[level][index].meets(box);
+    }, [&](std::size_t other) { visit_pairs(leaf, other, f); });
   }
 
   /// Calls `f(i)` for the places of triangles whose bounding boxes meet that of `t`.
@@ -252,16 +242,11 @@ public:
   void for_each_box_at(const Triangle_points& t, const F& f) const
   {
     const Box box = box_of(t);
-    boost::container::static_vector<std::pair<std::size_t, std::size_t>, 64> stack{{levels_.size() - 1, 0}};
-    while (!stack.empty()) {
-      const auto [level, index] = stack.back();
-      stack.pop_back();
-      if (!levels_[level][index].meets(box)) continue;
-      if (level > 0) push_children(level, index, stack);
-      else
-        for (std::size_t i = leaf_size * index; i < end_of_leaf(index); ++i)
-          if (box.meets(box_of(triangles_[i]))) f(i);
-    }
+    descend([&](std::size_t level, std::size_t index) { return levels_[level][index].meets(box); },
+            [&](std::size_t leaf) {
+      for (std::size_t i = leaf_size * leaf; i < end_of_leaf(leaf); ++i)
+        if (box.meets(box_of(triangles_[i]))) f(i);
+    });
   }
 
   std::size_t number_of_leaves() const { return levels_[0].size(); }
@@ -380,11 +365,20 @@ private:
     }
   }
 
-  template <class Stack>
-  void push_children(std::size_t level, std::size_t index, Stack& stack) const
+  /// Calls `visit(leaf)` for the leaves below boxes that `is_entered(level, index)`, in order.
+  template <class IsEntered, class Visit>
+  void descend(const IsEntered& is_entered, const Visit& visit) const
   {
-    for (const std::size_t child : {2 * index + 1, 2 * index})
-      if (child < levels_[level - 1].size()) stack.push_back({level - 1, child});
+    boost::container::static_vector<std::pair<std::size_t, std::size_t>, 64> stack{{levels_.size() - 1, 0}};
+    while (!stack.empty()) {
+      const std::size_t level = stack.back().first, index = stack.back().second;
+      stack.pop_back();
+      if (!is_entered(level, index)) continue;
+      if (level == 0) visit(index);
+      else
+        for (const std::size_t child : {2 * index + 1, 2 * index})
+          if (child < levels_[level - 1].size()) stack.push_back({level - 1, child});
+    }
   }
 
   /// Calls `f(i, j)` for the places `i <= j` in two leaves whose boxes meet.

@@ -148,18 +148,6 @@ inline bool do_intersect(const Triangle_tree& tree, const Triangle_points& t)
   return is_met;
 }
 
-/// The least and the largest coordinates.
-template <class Points>
-std::pair<Vector_3, Vector_3> bounding_box(const Points& points)
-{
-  Vector_3 low = points[0], high = points[0];
-  for (const Vector_3& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return {low, high};
-}
-
 } // namespace internal
 
 /// The pairs of faces that meet in more than the vertices and edges that they share, and each degenerate face as a pair

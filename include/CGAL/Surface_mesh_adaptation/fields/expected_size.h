@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/execution/physical_memory.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 #include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
 #include <CGAL/Surface_mesh_adaptation/metric/metric.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
@@ -131,11 +132,7 @@ void check_expected_size(const Execution& execution, const Surface& surface, std
   if (expected <= double(largest)) return;
   double size = std::numeric_limits<double>::infinity();
   for (const auto& m : surface.metrics) size = (std::min)(size, internal::smallest_size(m));
-  Vector_3 low = surface.points[0], high = surface.points[0];
-  for (const Vector_3& p : surface.points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
+  const auto [low, high] = internal::bounding_box(surface.points);
   throw Mesh_too_large_error({expected, largest, size, (high - low).norm()});
 }
 

@@ -89,15 +89,24 @@ void reorder(const Execution& execution, const std::vector<Index>& order, std::s
   items.swap(result);
 }
 
-/// The order of the vertices along the Hilbert curve through the bounding box.
-template <class Execution>
-std::vector<Index> hilbert_order(const Execution& execution, const std::vector<Vector_3>& points)
+/// The least and the largest coordinates.
+template <class Points>
+std::pair<Vector_3, Vector_3> bounding_box(const Points& points)
 {
   Vector_3 low = points[0], high = points[0];
   for (const Vector_3& p : points) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
+  return {low, high};
+}
+
+/// The order of the vertices along the Hilbert curve through the bounding box.
+template <class Execution>
+std::vector<Index> hilbert_order(const Execution& execution, const std::vector<Vector_3>& points)
+{
+  const auto box = bounding_box(points);
+  const Vector_3 &low = box.first, &high = box.second;
   const double side = (high - low).maxCoeff();
   const double scale = side > 0 ? double((1u << hilbert_bits) - 1) / side : 0;
   std::vector<std::uint64_t> key(points.size());
