@@ -187,24 +187,26 @@ public:
   }
 
 private:
-  /// The faces beyond those of the view that reach into a box.
+  /// The faces beyond those of the view that reach into a box; such a face need not be a triangle: a fan of them.
   template <class VertexPointMap>
   std::vector<Triangle_points> triangles_around(const VertexPointMap& points, const Vector_3& low,
                                                 const Vector_3& high) const
   {
     std::vector<Triangle_points> triangles;
+    std::vector<Vector_3> corners;
     for (const auto f : faces(graph_)) {
       if (range_.number(f) != no_index) continue;
-      Triangle_points t;
-      std::size_t i = 0;
+      corners.clear();
       for (const auto v : CGAL::vertices_around_face(halfedge(f, graph_), graph_)) {
-        if (i == 3) break; // faces that are not in the range need not be triangles: the first of their triangles
         const auto& p = get(points, v);
-        t[i++] = Vector_3(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
+        corners.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
       }
-      if ((t[0].cwiseMin(t[1]).cwiseMin(t[2]).array() <= high.array()).all() &&
-          (t[0].cwiseMax(t[1]).cwiseMax(t[2]).array() >= low.array()).all())
-        triangles.push_back(t);
+      for (std::size_t i = 2; i < corners.size(); ++i) {
+        const Triangle_points t = {corners[0], corners[i - 1], corners[i]};
+        if ((t[0].cwiseMin(t[1]).cwiseMin(t[2]).array() <= high.array()).all() &&
+            (t[0].cwiseMax(t[1]).cwiseMax(t[2]).array() >= low.array()).all())
+          triangles.push_back(t);
+      }
     }
     return triangles;
   }
