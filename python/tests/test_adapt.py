@@ -210,12 +210,12 @@ def shells():
 
 def test_self_intersections_are_counted_on_request():
     assert sma.adapt(*shells(), size=0.3).report.self_intersections is None
-    counts = sma.adapt(*shells(), size=0.3, count_self_intersections=True).report.self_intersections
+    counts = sma.adapt(*shells(), size=0.4, count_self_intersections=True).report.self_intersections
     assert counts.before == 0 and counts.after > 100 and counts.seconds > 0
 
 
 def test_self_intersections_are_avoided_on_request():
-    result = sma.adapt(*shells(), size=0.3, avoid_self_intersections=True, count_self_intersections=True)
+    result = sma.adapt(*shells(), size=0.4, avoid_self_intersections=True, count_self_intersections=True)
     assert result.report.self_intersections.after == 0
     radii = np.linalg.norm(result.points, axis=1)
     assert np.abs(np.minimum(abs(radii - 1), abs(radii - 0.98))).max() < 2e-3

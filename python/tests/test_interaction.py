@@ -115,7 +115,8 @@ def test_the_interpreter_works_meanwhile():
 
 
 _INTERRUPTED = """
-import sys, time, numpy as np
+import signal, sys, time, numpy as np
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell may have had the background ignore it
 sys.path.insert(0, {folder!r})
 from shapes import sphere
 import surface_mesh_adaptation as sma
