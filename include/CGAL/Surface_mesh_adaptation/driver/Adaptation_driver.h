@@ -63,7 +63,8 @@ public:
     if (aims.number_of_vertices > 0) meet_number(aims.number_of_vertices);
     refinement_.compact();
     if (aims.deviation > 0 && rounds > 0) meet_deviation(aims.deviation);
-    if (surface_.intersections != nullptr && rounds > 0) part_faces();
+    if constexpr (Surface::avoids_intersections)
+      if (surface_.intersections != nullptr && rounds > 0) part_faces();
     if constexpr (!std::is_same_v<IsFitted, std::false_type>)
       if (is_fitted) {
         fit(shape_weight);

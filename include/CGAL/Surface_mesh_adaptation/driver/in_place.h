@@ -138,6 +138,10 @@ private:
   using Reference = Reference_surface<Reconstruction>;
   using Points = std::decay_t<decltype(point_map(std::declval<Domain&>().graph(), std::declval<const NamedParameters&>()))>;
   using Point = typename boost::property_traits<Points>::value_type;
+  static constexpr bool may_avoid_intersections =
+    has_parameter<NamedParameters, internal_np::avoid_self_intersections_t>;
+  static constexpr bool may_count_intersections =
+    has_parameter<NamedParameters, internal_np::count_self_intersections_t>;
 
   void read()
   {
@@ -149,8 +153,10 @@ private:
     make_tolerance();
     surroundings_ =
       domain_.surroundings(points_, [this](const Mesh_view& mesh, Index f) { return values_->is_inside(mesh, f); });
-    intersections_.are_counted = choose(np_, internal_np::count_self_intersections, false);
-    if (intersections_.are_counted) intersections_.before = count_intersections(imported_);
+    if constexpr (may_count_intersections) {
+      intersections_.are_counted = choose(np_, internal_np::count_self_intersections, false);
+      if (intersections_.are_counted) intersections_.before = count_intersections(imported_);
+    }
     bounds_ = vertex_size_bounds(domain_.graph(), imported_, np_);
     deviations_ = face_deviations(domain_.graph(), imported_, np_);
     if (!avoids_intersections()) values_->swap_caps(execution_, imported_); // it may make faces meet
@@ -162,7 +168,8 @@ private:
   std::size_t count_intersections(const Mesh& m)
   {
     const auto start = std::chrono::steady_clock::now();
-    const std::size_t n = self_intersections(execution_, m.mesh, m.points, surroundings_).size();
+    const std::size_t n = guard_ ? guard_->all_pairs(execution_, m).size()
+                                 : self_intersections(execution_, m.mesh, m.points, surroundings_).size();
     intersections_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return n;
   }
@@ -181,14 +188,16 @@ private:
   bool adapt_to(const Reference& reference, const Background& background)
   {
     using Metric = std::decay_t<decltype(background.at(reference, Location(), Surface_point()))>;
-    std::optional<Adapted_surface<Metric, Reconstruction>> surface;
+    std::optional<Adapted_surface<Metric, Reconstruction, may_avoid_intersections>> surface;
     const auto attempt = [&] {
       surface.emplace(execution_, reference, background, tolerance_ ? &*tolerance_ : nullptr);
-      if (guard_) guard(*surface);
+      if constexpr (may_avoid_intersections)
+        if (guard_) guard(*surface);
       return adapt(*surface);
     };
     report_ = tolerance_ ? adapt_within(*tolerance_, attempt) : attempt();
-    if (guard_ && !accepts(*surface)) return false;
+    if constexpr (may_avoid_intersections)
+      if (guard_ && !accepts(*surface)) return false;
     write(reference, *surface);
     surface->release(execution_);
     return true;
@@ -248,7 +257,8 @@ private:
   void write(const Reference& reference, Surface& surface)
   {
     const Effect_of_interruption write_all(execution_.interruption(), Interruption::Effect::none);
-    if (intersections_.are_counted) intersections_.after = count_intersections(surface);
+    if constexpr (may_count_intersections)
+      if (intersections_.are_counted) intersections_.after = count_intersections(surface);
     values_->prepare(execution_, surface);
     const Carried_jets<NamedParameters> jets(execution_, reference, surface.locations.size(), [&](std::size_t v) {
       return surface.locations[v];

@@ -38,12 +38,14 @@ struct Placed_vertex
   Metric metric;
 };
 
-template <class Metric_, class Reconstruction_>
+/// Where nobody asks for `AvoidsIntersections`, what keeps faces from meeting need not be compiled.
+template <class Metric_, class Reconstruction_, bool AvoidsIntersections = false>
 class Adapted_surface
 {
 public:
   using Metric = Metric_;
   using Reconstruction = Reconstruction_;
+  static constexpr bool avoids_intersections = AvoidsIntersections;
   using Reference = Reference_surface<Reconstruction>;
   using Background = Metric_background<Metric>;
 

@@ -44,11 +44,24 @@ public:
     : mesh_(mesh), points_(points), surroundings_(surroundings), is_kept_(mesh.number_of_faces(), 0)
   {}
 
+  /// The pairs of faces of `m` that meet; found once if it is the mesh of the last call.
+  template <class Execution, class Mesh>
+  const std::vector<Face_pair>& all_pairs(const Execution& execution, const Mesh& m)
+  {
+    const auto& corners = m.mesh.corner;
+    const bool is_same = std::equal(corners.begin(), corners.end(), tested_.corners.begin(), tested_.corners.end()) &&
+                         std::equal(m.points.begin(), m.points.end(), tested_.points.begin(), tested_.points.end());
+    if (!is_same)
+      tested_ = {{corners.begin(), corners.end()}, {m.points.begin(), m.points.end()},
+                 self_intersections(execution, m.mesh, m.points, surroundings_)};
+    return tested_.pairs;
+  }
+
   /// The pairs of faces of `surface` that meet, but for those where the input has such.
   template <class Execution, class Surface>
   std::vector<Face_pair> new_pairs(const Execution& execution, const Surface& surface)
   {
-    std::vector<Face_pair> pairs = self_intersections(execution, surface.mesh, surface.points, surroundings_);
+    std::vector<Face_pair> pairs = all_pairs(execution, surface);
     if (pairs.empty()) return pairs;
     if (is_old_.empty()) find_old(execution);
     if (!has_old_) return pairs;
@@ -161,6 +174,14 @@ private:
     has_old_ = std::find(is_old_.begin(), is_old_.end(), 1) != is_old_.end();
     is_old_ = with_faces_around(is_old_);
   }
+
+  /// The mesh that was tested last, and what was found.
+  struct Tested
+  {
+    std::vector<Index> corners;
+    std::vector<Vector_3> points;
+    std::vector<Face_pair> pairs;
+  };
 
   /// The input, and how far it may be left at each of its triangles.
   struct Gaps
@@ -284,6 +305,7 @@ private:
   std::vector<std::uint8_t> is_old_;  // each face of the input that meets another one, and those around; empty: not known
   bool has_old_ = false;              // whether there is any
   std::vector<std::uint8_t> is_kept_; // each face of the input that has to stay
+  Tested tested_;
   std::optional<Gaps> gaps_; // once they are needed
   int attempts_ = 0;
 };
