@@ -132,6 +132,39 @@ TEST(Adapt, takes_no_fold_of_a_scan_for_its_shape)
   EXPECT_GT(SMA::adapt_surface_mesh(mesh, field).final.min_quality, 0.1);
 }
 
+/// A height map of n x n squares, all cut along the same diagonal or alternately; a saddle of that height.
+Soup height_map(std::size_t n, bool alternates, double height)
+{
+  Soup s;
+  for (std::size_t j = 0; j <= n; ++j)
+    for (std::size_t i = 0; i <= n; ++i) {
+      const double x = double(i) / double(n) - 0.5, y = double(j) / double(n) - 0.5;
+      s.points.emplace_back(x, y, height * (x * x - y * y));
+    }
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t i = 0; i < n; ++i) {
+      const Index a = Index(j * (n + 1) + i), b = a + 1, c = a + Index(n) + 2, d = a + Index(n) + 1;
+      if (alternates && (i + j) % 2 == 1) s.triangles.insert(s.triangles.end(), {{a, b, d}, {b, c, d}});
+      else s.triangles.insert(s.triangles.end(), {{a, b, c}, {a, c, d}});
+    }
+  return s;
+}
+
+// Their right-angled faces are in balance for every local operation, at a quality of .866.
+TEST(Adapt, breaks_the_balance_of_lattices)
+{
+  constexpr std::size_t n = 63;
+  for (const bool alternates : {false, true})
+    for (const double height : {0.0, 0.3})
+      for (const double spacings : {2.0, 1.0, 0.7, 0.5}) {
+        Mesh mesh = shapes::mesh<Mesh>(height_map(n, alternates, height));
+        const SMA::Uniform_metric_field field(spacings / double(n));
+        const SMA::Mesh_statistics reached = SMA::adapt_surface_mesh(mesh, field).final;
+        EXPECT_GE(reached.mean_quality, 0.96) << alternates << ' ' << height << ' ' << spacings;
+        EXPECT_GE(reached.in_range, 0.98) << alternates << ' ' << height << ' ' << spacings;
+      }
+}
+
 // Two right-angled faces: halving makes a lattice of such faces (quality .866), and curves of 2^n edges.
 TEST(Adapt, fills_a_square_with_unit_triangles)
 {
