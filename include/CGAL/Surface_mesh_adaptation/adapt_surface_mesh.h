@@ -319,7 +319,8 @@ step at the end: if anything throws, it is as it was.
         `Empty_mesh_error`; `Invalid_parameter_error`; `Mesh_too_large_error`; `Tolerance_error` if the tolerance could not
         be kept; `Self_intersection_error` if faces that meet could not be avoided. All derive from `Adaptation_error`. What maps, formulas and visitors throw passes through. The mesh is as
         it was in any case.
-\complexity O(n log n) time, O(n) memory, for n the larger of the numbers of input and output vertices
+\par Complexity
+O(n log n) time, O(n) memory, for n the larger of the numbers of input and output vertices
 */
 template <class Execution, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,
@@ -340,7 +341,8 @@ of property maps there, passed or not. The edges between the range and the rest 
 \param execution, mesh, field, np as for a whole mesh; lengths relative to a bounding box are those of the faces of the range
        and of two rings of faces around them
 
-\complexity as for a mesh of these faces, and one pass over the faces of `mesh`
+\par Complexity
+as for a mesh of these faces, and one pass over the faces of `mesh`
 */
 template <class Execution, class FaceRange, class TriangleMesh, class MetricField,
           class NamedParameters = CGAL::parameters::Default_named_parameters,

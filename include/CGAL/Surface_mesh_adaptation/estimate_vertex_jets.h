@@ -25,7 +25,8 @@ of which at least one is given. What these hold before is not read. Where severa
 values are those of one of them; where there are too few points for a fit, shape operators are zero.
 
 \throws as `adapt_surface_mesh()`: no map was written then
-\complexity O(n), about 2.3 microseconds a vertex
+\par Complexity
+O(n), about 2.3 microseconds a vertex
 */
 template <class Execution, class TriangleMesh, class NamedParameters>
 auto estimate_vertex_jets(const Execution& execution, const TriangleMesh& mesh, const NamedParameters& np)

@@ -470,7 +470,8 @@ private:
 /// \tparam Polygons a range of ranges of integers
 /// \param mesh an empty model of `MutableFaceGraph`
 /// \throws Empty_mesh_error if nothing is left, Mesh_too_large_error
-/// \complexity O(n log n) for an input with few faces at each edge and vertex
+/// \par Complexity
+/// O(n log n) for an input with few faces at each edge and vertex
 template <class Point, class Polygons, class TriangleMesh>
 Repair_report repair_polygon_soup_to_triangle_mesh(std::vector<Point> points, const Polygons& polygons,
                                                    TriangleMesh& mesh, const Repair_options& options = Repair_options())

@@ -37,7 +37,8 @@ public:
   {}
 
   /// Measures the faces that were not there the last time. \pre no face is removed
-  /// \complexity O(n log n); a few short walks on the reference for each of these faces, and a search for the face next
+  /// \par Complexity
+  /// O(n log n); a few short walks on the reference for each of these faces, and a search for the face next
   /// to each vertex of the input next to them
   template <class Execution>
   void update(const Execution& execution)

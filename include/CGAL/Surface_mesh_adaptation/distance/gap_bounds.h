@@ -75,7 +75,9 @@ void grade(const Execution& execution, const Triangle_tree& tree, const std::vec
 } // namespace internal
 
 /// For each triangle of `tree`, which has the faces of `mesh`, how far the surface may be left there; infinite where there
-/// is no gap within `reach[v]` of vertices `v` near it. \complexity near O(n log n)
+/// is no gap within `reach[v]` of vertices `v` near it.
+/// \par Complexity
+/// near O(n log n)
 template <class Execution, class Points>
 std::vector<double> gap_bounds(const Execution& execution, const Mesh_view& mesh, const Points& points,
                                const Triangle_tree& tree, const std::vector<double>& reach)

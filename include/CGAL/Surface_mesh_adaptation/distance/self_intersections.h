@@ -153,7 +153,8 @@ inline bool do_intersect(const Triangle_tree& tree, const Triangle_points& t)
 /// The pairs of faces that meet in more than the vertices and edges that they share, and each degenerate face as a pair
 /// with itself, in the order of `tree`, which has the faces of `mesh`. As `self_intersections` of Polygon Mesh Processing.
 /// \pre no two edges have the same ends
-/// \complexity O(n log n) where few bounding boxes of faces meet others than those of neighbours
+/// \par Complexity
+/// O(n log n) where few bounding boxes of faces meet others than those of neighbours
 template <class Execution, class Points>
 std::vector<Face_pair> self_intersections(const Execution& execution, const Mesh_view& mesh, const Points& points,
                                           const Triangle_tree& tree)

@@ -37,7 +37,8 @@ public:
 
   Graded_bounds() = default; ///< no bound
 
-  /// \complexity O(n log n)
+  /// \par Complexity
+  /// O(n log n)
   template <class Execution>
   Graded_bounds(const Execution& execution, std::vector<Source> sources) : sources_(std::move(sources))
   {

@@ -165,7 +165,8 @@ private:
 /// the metric). What several neighbours bound is folded by decreasing determinant, so the numbering of the mesh does
 /// not matter. `ratio <= 1` switches it off.
 /// \pre all tensors are positive definite
-/// \complexity in each sweep a few hundred nanoseconds for each vertex with a changed neighbour; the number of sweeps
+/// \par Complexity
+/// in each sweep a few hundred nanoseconds for each vertex with a changed neighbour; the number of sweeps
 ///   is that of the layers of vertices over which the smallest sizes have an effect
 template <class Execution>
 void apply_gradation(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,

@@ -84,7 +84,8 @@ inline Hessian_estimate hessian_of_sector(const Mesh_view& mesh, const std::vect
 ///        indexed like `normals.normals`
 /// \pre `mesh.curve` is set (Features.h), all points are finite
 /// \throws Invalid_field_error for the first value that is not finite
-/// \complexity O(n), about 2 microseconds a vertex
+/// \par Complexity
+/// O(n), about 2 microseconds a vertex
 template <class Execution, class Normals>
 Buffer<Hessian_estimate> estimate_hessians(const Execution& execution, const Mesh_view& mesh,
                                            const std::vector<Vector_3>& points, const Normals& normals,

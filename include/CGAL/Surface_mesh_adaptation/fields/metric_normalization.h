@@ -304,7 +304,8 @@ std::vector<Value> metric_at_scale(const Execution& execution, const Mesh_view& 
 /// bounds allow it: else as near as they do. Where a tensor is zero the size is the largest one elsewhere. The bounds and the gradation hold in the result, for the scale is solved
 /// for with both: first with the bounds alone, whose number of vertices is cheap to find, then with the gradation.
 /// (Where tensors with different directions meet, the gradation may ask for sizes a little below `hmin`.)
-/// \complexity O(n) for each of about five to ten evaluations, and three to four gradations
+/// \par Complexity
+/// O(n) for each of about five to ten evaluations, and three to four gradations
 template <class Value, class Execution>
 std::vector<Value> normalize_to_vertex_count(const Execution& execution, const Mesh_view& mesh,
                                              const std::vector<Vector_3>& points, const Corner_normals& normals,

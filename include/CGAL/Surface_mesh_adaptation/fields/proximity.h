@@ -109,7 +109,8 @@ void for_each_strip(const Reference& reference, Index v, double narrowest, doubl
 /// there are none between the curves. Widths are those of strips between the sizes `bounds.hmin` and `bounds.hmax`:
 /// wider ones have room for more edges, narrower ones are noise. In other directions the tensors ask for next to nothing, a
 /// size `default_max_anisotropy` times as large. Zero at smooth vertices, and where there is no strip.
-/// \complexity for each feature edge, the faces that a path of length `hmax` across it meets before the next feature
+/// \par Complexity
+/// for each feature edge, the faces that a path of length `hmax` across it meets before the next feature
 template <class Execution, class Reference>
 std::vector<Metric_tensor_3> proximity_tensors(const Execution& execution, const Reference& reference,
                                                const Size_bounds& bounds)

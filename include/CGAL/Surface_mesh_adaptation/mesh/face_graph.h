@@ -272,7 +272,8 @@ Imported_mesh<FaceGraph> import_face_graph(const Execution& execution, const Fac
 /// 2-manifold, closed or with boundary, without isolated vertices. `detect_features()` comes
 /// next: without it `mesh.curve` is not set.
 /// \throws any `Invalid_input_error`, Invalid_extent_error, Empty_mesh_error, Mesh_too_large_error
-/// \complexity O(n)
+/// \par Complexity
+/// O(n)
 template <class Execution, class FaceGraph, class VertexPointMap>
 Imported_mesh<FaceGraph> read_face_graph(const Execution& execution, const FaceGraph& graph,
                                          const VertexPointMap& point_map)

@@ -59,7 +59,8 @@ public:
   using Face = typename boost::graph_traits<FaceGraph>::face_descriptor;
 
   /// \throws Empty_mesh_error, Mesh_too_large_error, Non_triangular_face_error
-  /// \complexity O(number of faces), and setting a byte for each face of `graph`
+  /// \par Complexity
+  /// O(number of faces), and setting a byte for each face of `graph`
   template <class Range>
   Face_range(const Range& range, const FaceGraph& graph)
     : number_(get(CGAL::dynamic_face_property_t<Index>(), graph))

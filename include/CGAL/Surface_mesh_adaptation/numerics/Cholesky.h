@@ -15,7 +15,9 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 namespace internal {
 
-/// `a = L L^T`, of which only the lower triangle is read. \complexity O(n^3)
+/// `a = L L^T`, of which only the lower triangle is read.
+/// \par Complexity
+/// O(n^3)
 template <int n>
 class Cholesky
 {

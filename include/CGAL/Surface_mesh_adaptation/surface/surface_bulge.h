@@ -22,7 +22,8 @@ constexpr double largest_bulge_of_patches = 0.25;
 /// edges, if it is above `least`: faces that are too short for that are left out, and with them the estimates of their
 /// jets.
 /// \returns 0 if it is not
-/// \complexity O(n) for the lengths, and some microseconds for each face that is not left out
+/// \par Complexity
+/// O(n) for the lengths, and some microseconds for each face that is not left out
 template <class Execution, class Reference>
 double surface_bulge(const Execution& execution, const Reference& reference, double least)
 {

@@ -152,7 +152,8 @@ private:
 
 /// Swaps the longest edges of caps where that changes the shape by less than their height. Boundaries and constrained
 /// edges stay; `constraints` has a value for each halfedge, or none at all.
-/// \complexity O(n), and the swaps one after the other
+/// \par Complexity
+/// O(n), and the swaps one after the other
 template <class Execution>
 Swapped_caps swap_caps(const Execution& execution, Mesh_view& mesh, const std::vector<Vector_3>& points,
                        std::vector<Edge_constraint>& constraints)

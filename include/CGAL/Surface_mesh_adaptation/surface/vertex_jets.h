@@ -288,7 +288,8 @@ inline Metric_tensor_3 mean_shape_operator(const Mesh_view& mesh, const std::vec
 /// around (Rusinkiewicz 2004), which are also those of `Jet_fit::noisy`. Always finite.
 ///
 /// \pre `mesh.curve` is set (Features.h), all points are finite
-/// \complexity O(n), about 2 microseconds a vertex
+/// \par Complexity
+/// O(n), about 2 microseconds a vertex
 template <class Execution>
 Corner_jets estimate_jets(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
                           Jet_fit samples = Jet_fit::exact)
