@@ -57,6 +57,9 @@ public:
     return tested_.pairs;
   }
 
+  /// Has the next mesh tested in any case.
+  void forget() { tested_ = {}; }
+
   /// The pairs of faces of `surface` that meet, but for those where the input has such.
   template <class Execution, class Surface>
   std::vector<Face_pair> new_pairs(const Execution& execution, const Surface& surface)
