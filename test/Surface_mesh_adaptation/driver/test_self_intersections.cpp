@@ -27,6 +27,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -208,6 +209,36 @@ TEST(Self_intersections, are_avoided_by_each_kernel_alone)
   check("swap", [&](Mesh& m) { SMA::swap(m, same, np); });
   check("regularize", [&](Mesh& m) { SMA::regularize(m, same, np); });
   check("relocate", [&](Mesh& m) { SMA::relocate(m, same, np); });
+}
+
+/// Lets a run go on until it was asked for that some times.
+struct Counting_visitor : SMA::Adaptation_visitor
+{
+  mutable std::size_t left;
+
+  explicit Counting_visitor(std::size_t times) : left(times) {}
+  bool go_on() const { return left > 0 && --left > 0; }
+};
+
+TEST(Self_intersections, do_not_come_about_in_runs_that_are_stopped)
+{
+  std::size_t written = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const auto [name, soup] = near_sheets::shape(seed);
+    if (pairs(soup) > 0) continue;
+    Mesh mesh = shapes::mesh<Mesh>(soup);
+    const Soup before = shapes::soup(mesh);
+    Counting_visitor visitor(1 + seed % 8);
+    try {
+      const SMA::Uniform_metric_field field(4 * soup.mean_edge_length());
+      SMA::adapt_surface_mesh(mesh, field, params::avoid_self_intersections(true).visitor(std::ref(visitor)));
+      ++written;
+      EXPECT_EQ(brute_force_intersections::number_of_pairs(shapes::soup(mesh)), 0u) << name << ", seed " << seed;
+    } catch (const SMA::Self_intersection_error&) {
+      EXPECT_TRUE(checks::is_identical(shapes::soup(mesh), before)) << name << ", seed " << seed;
+    }
+  }
+  EXPECT_GT(written, 10u);
 }
 
 TEST(Self_intersections, are_avoided_with_a_tolerance_labels_and_protected_edges)

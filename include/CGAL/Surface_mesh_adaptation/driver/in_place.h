@@ -238,7 +238,6 @@ private:
   bool accepts(const Surface& surface)
   {
     const Effect_of_interruption once(execution_.interruption(), effect_after(report_));
-    guard_->forget(); // a test before may have been interrupted
     const std::vector<Face_pair> pairs = guard_->new_pairs(execution_, surface);
     if (pairs.empty()) return true;
     if (report_.stopped) throw Self_intersection_error(pairs.size());

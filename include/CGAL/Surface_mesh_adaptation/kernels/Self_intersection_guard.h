@@ -44,7 +44,8 @@ public:
     : mesh_(mesh), points_(points), surroundings_(surroundings), is_kept_(mesh.number_of_faces(), 0)
   {}
 
-  /// The pairs of faces of `m` that meet; found once if it is the mesh of the last call.
+  /// The pairs of faces of `m` that meet; found once if it is the mesh of the last call. No run that is stopped leaves a part
+  /// of them out: the test is finished, or given up with an exception.
   template <class Execution, class Mesh>
   const std::vector<Face_pair>& all_pairs(const Execution& execution, const Mesh& m)
   {
@@ -56,9 +57,6 @@ public:
                  self_intersections(execution, m.mesh, m.points, surroundings_)};
     return tested_.pairs;
   }
-
-  /// Has the next mesh tested in any case.
-  void forget() { tested_ = {}; }
 
   /// The pairs of faces of `surface` that meet, but for those where the input has such.
   template <class Execution, class Surface>
