@@ -7,6 +7,7 @@
 // and the most rounds.
 
 #include "../../test/Surface_mesh_adaptation/analytic_fields.h"
+#include "../../test/Surface_mesh_adaptation/shape_meshes.h"
 #include "../../test/Surface_mesh_adaptation/shapes.h"
 #include "common.h"
 

@@ -13,6 +13,7 @@
 // where the benchmark, whose domain is r >= .5, has d = 10 (.6 - r). All sizes can be divided by a number, so that the
 // meshes are finer in all directions.
 
+#include "../../test/Surface_mesh_adaptation/shape_meshes.h"
 #include "../../test/Surface_mesh_adaptation/shapes.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

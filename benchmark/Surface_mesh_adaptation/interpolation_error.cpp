@@ -10,6 +10,7 @@
 
 #include "../../test/Surface_mesh_adaptation/analytic_fields.h"
 #include "../../test/Surface_mesh_adaptation/interpolation_error.h"
+#include "../../test/Surface_mesh_adaptation/shape_meshes.h"
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

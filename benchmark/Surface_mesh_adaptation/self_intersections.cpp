@@ -10,6 +10,7 @@
 // are written there, and that of CGAL's `isotropic_remeshing`, for scripts/compare_tetgen.
 
 #include "../../test/Surface_mesh_adaptation/near_sheets.h"
+#include "../../test/Surface_mesh_adaptation/shape_meshes.h"
 #include "common.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -7,6 +7,7 @@
 // processor time for each vertex of the input.
 
 #include "../../test/Surface_mesh_adaptation/distances.h"
+#include "../../test/Surface_mesh_adaptation/shape_meshes.h"
 #include "../../test/Surface_mesh_adaptation/shapes.h"
 #include "common.h"
 

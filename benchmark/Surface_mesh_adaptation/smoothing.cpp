@@ -6,6 +6,7 @@
 //     smoothing [MESH...]     names of meshes in CGAL's data, by default three smooth ones
 
 #include "common.h"
+#include "../../test/Surface_mesh_adaptation/shape_meshes.h"
 #include "../../test/Surface_mesh_adaptation/shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>

@@ -7,6 +7,7 @@
 #include "checks.h"
 #include "brute_force_intersections.h"
 #include "random_meshes.h"
+#include "shape_meshes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>

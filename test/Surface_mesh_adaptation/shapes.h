@@ -9,10 +9,6 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
 
-#include <CGAL/boost/graph/Euler_operations.h>
-#include <CGAL/boost/graph/helpers.h>
-#include <CGAL/property_map.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -201,6 +197,11 @@ inline Vector_3 torus_normal(const Vector_3& p)
   return (p - center).normalized();
 }
 
+inline double torus_distance(const Vector_3& p)
+{
+  return std::abs(std::hypot(std::hypot(p[0], p[1]) - torus_large_radius, p[2]) - torus_small_radius);
+}
+
 /// The unit square in the plane z = 0, with its boundary.
 inline Soup square(std::size_t n, double jitter = 0)
 {
@@ -307,52 +308,6 @@ inline SMA::Mesh_view view(const Soup& soup)
     if (out == no_index || m.twin[h] == no_index) out = h;
   }
   return m;
-}
-
-/// Adds a soup to a face graph, of which `point` holds the points: vertices and faces in the order of the soup.
-template <class TriangleMesh, class PointMap>
-void add_to(TriangleMesh& m, const PointMap& point, const Soup& soup)
-{
-  using Point = typename boost::property_traits<PointMap>::value_type;
-  std::vector<typename boost::graph_traits<TriangleMesh>::vertex_descriptor> v;
-  for (const Vector_3& p : soup.points) {
-    v.push_back(add_vertex(m));
-    put(point, v.back(), Point(p[0], p[1], p[2]));
-  }
-  for (const Triangle& t : soup.triangles) CGAL::Euler::add_face(std::array{v[t[0]], v[t[1]], v[t[2]]}, m);
-}
-
-/// The same as a face graph with points of its own.
-template <class TriangleMesh>
-TriangleMesh mesh(const Soup& soup)
-{
-  TriangleMesh m;
-  add_to(m, get(CGAL::vertex_point, m), soup);
-  return m;
-}
-
-/// Points and triangles of a face graph, in its order and from the first halfedge of each face on.
-template <class TriangleMesh, class PointMap>
-Soup soup(const TriangleMesh& m, const PointMap& point)
-{
-  Soup s;
-  const auto index = get(CGAL::dynamic_vertex_property_t<Index>(), m);
-  for (const auto v : vertices(m)) {
-    put(index, v, Index(s.points.size()));
-    const auto& p = get(point, v);
-    s.points.emplace_back(CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z()));
-  }
-  for (const auto f : faces(m)) {
-    const auto h = halfedge(f, m);
-    s.triangles.push_back({get(index, source(h, m)), get(index, target(h, m)), get(index, target(next(h, m), m))});
-  }
-  return s;
-}
-
-template <class TriangleMesh>
-Soup soup(const TriangleMesh& m)
-{
-  return soup(m, get(CGAL::vertex_point, m));
 }
 
 } // namespace shapes

@@ -5,6 +5,7 @@
 
 #include "checks.h"
 #include "policies.h"
+#include "shape_meshes.h"
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>

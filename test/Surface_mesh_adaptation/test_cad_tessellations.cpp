@@ -5,11 +5,7 @@
 
 #include "checks.h"
 #include "policies.h"
-#include "shapes.h"
-
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
+#include "tessellations.h"
 
 #include <gtest/gtest.h>
 
@@ -26,17 +22,7 @@
 
 namespace {
 
-namespace SMA = CGAL::Surface_mesh_adaptation;
-using shapes::Index;
-using shapes::pi;
-using shapes::Random;
-using shapes::Soup;
-using shapes::Vector_3;
-using Surface_mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
-
-const SMA::Sequential_execution sequential;
-
-using Polygon = std::vector<Index>;
+using namespace tessellations_of_tests;
 
 /// Convex planar polygons, whose corners are found again by their coordinates.
 class Polygons
@@ -204,14 +190,6 @@ Errors errors(const Part& part, const Placed& placed, const Soup& adapted)
   }
   e.rms = std::sqrt(e.rms);
   return e;
-}
-
-template <class Execution = SMA::Sequential_execution>
-Soup adapted(const Soup& soup, double size, const Execution& execution = sequential)
-{
-  auto mesh = shapes::mesh<Surface_mesh>(soup);
-  SMA::adapt_surface_mesh(execution, mesh, SMA::Uniform_metric_field(size));
-  return shapes::soup(mesh);
 }
 
 // Parts

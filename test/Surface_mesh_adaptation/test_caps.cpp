@@ -5,11 +5,7 @@
 
 #include "checks.h"
 #include "policies.h"
-#include "shapes.h"
-
-#include <CGAL/Simple_cartesian.h>
-#include <CGAL/Surface_mesh.h>
-#include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
+#include "tessellations.h"
 
 #include <gtest/gtest.h>
 
@@ -24,16 +20,7 @@
 
 namespace {
 
-namespace SMA = CGAL::Surface_mesh_adaptation;
-using shapes::Index;
-using shapes::pi;
-using shapes::Random;
-using shapes::Soup;
-using shapes::Vector_3;
-using Surface_mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
-using Polygon = std::vector<Index>;
-
-const SMA::Sequential_execution sequential;
+using namespace tessellations_of_tests;
 
 Index add(Soup& soup, const Vector_3& p)
 {
@@ -151,14 +138,6 @@ Soup loft(std::size_t k, double height)
     soup.triangles.push_back({high[i], high[j], above});
   }
   return soup;
-}
-
-template <class Execution = SMA::Sequential_execution>
-Soup adapted(const Soup& soup, double size, const Execution& execution = sequential)
-{
-  auto mesh = shapes::mesh<Surface_mesh>(soup);
-  SMA::adapt_surface_mesh(execution, mesh, SMA::Uniform_metric_field(size));
-  return shapes::soup(mesh);
 }
 
 struct Extremes

@@ -3,6 +3,7 @@
 // The functions ask their arguments for no more than the concepts say, and say themselves what is no model.
 
 #include "archetypes.h"
+#include "shape_meshes.h"
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>

@@ -4,6 +4,7 @@
 
 #include "checks.h"
 #include "medit_files.h"
+#include "shape_meshes.h"
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>

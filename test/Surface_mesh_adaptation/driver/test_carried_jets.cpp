@@ -5,6 +5,7 @@
 #include "analytic_surfaces.h"
 #include "checks.h"
 #include "policies.h"
+#include "shape_meshes.h"
 #include "shapes.h"
 
 #include <CGAL/surface_mesh_adaptation.h>

@@ -8,6 +8,7 @@
 #include "near_sheets.h"
 #include "policies.h"
 #include "random_meshes.h"
+#include "shape_meshes.h"
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>

@@ -7,6 +7,7 @@
 #include "interpolation_error.h"
 #include "policies.h"
 #include "real_meshes.h"
+#include "shape_meshes.h"
 
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>

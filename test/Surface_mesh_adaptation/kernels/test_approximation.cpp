@@ -7,6 +7,7 @@
 #include "distances.h"
 #include "policies.h"
 #include "real_meshes.h"
+#include "shape_meshes.h"
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>

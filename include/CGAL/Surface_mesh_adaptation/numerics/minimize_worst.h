@@ -102,7 +102,7 @@ inline Vector_2 minimize_maximum(const Ring<Linear_function_2>& functions, doubl
   for (std::size_t i = 1; i < functions.size(); ++i) {
     const Linear_function_2& f = functions[i];
     if (!(f(d) > largest)) continue;
-    half_planes.resize(4);
+    half_planes.erase(half_planes.begin() + 4, half_planes.end()); // all but the sides
     for (std::size_t j = 0; j < i; ++j)
       half_planes.push_back({functions[j].gradient - f.gradient, f.value - functions[j].value});
     d = internal::minimum_in(f.gradient, radius, half_planes);
