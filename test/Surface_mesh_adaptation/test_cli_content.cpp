@@ -302,6 +302,14 @@ const char* const two_charts = "mtllib some.mtl\nv 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 
                                "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 5 5\nvt 7 5\nvt 7 7\nvt 5 7\n"
                                "o strip\ng left\nusemtl red\nf 1/1 2/2 5/3 4/4\ng right\nusemtl blue\nf 2/5 3/6 6/7 5/8\n";
 
+TEST_F(Content, lines_of_obj_files_that_a_backslash_continues)
+{
+  const std::string lines = "v 0 0 0\nv 1 0 \\\n0\nv 1 1 0\\\r\n\nv 0 1 0\nf 1//1 2//1\\\n 3//1 \\\n4//1\n";
+  write(path("in.obj"), lines + "vn 0 0 1\n");
+  expect_success("in.obj out.off --size 2 --quiet");
+  EXPECT_NE(content(path("out.off")).find("OFF\n4 2 0\n"), std::string::npos);
+}
+
 TEST_F(Content, groups_materials_and_texture_coordinates_of_obj_files)
 {
   write(path("in.obj"), two_charts);

@@ -27,10 +27,11 @@ public:
 
   bool at_end() const { return next_ == end_; }
 
-  /// Whether there is no further word in this line.
+  /// Whether there is no further word in this line, nor in those that a backslash makes a part of it.
   bool at_end_of_line()
   {
-    while (next_ != end_ && is_blank(*next_)) ++next_;
+    for (; next_ != end_ && (is_blank(*next_) || is_continued()); ++next_)
+      if (*next_ == '\\') next_ = std::find(next_, end_, '\n');
     return next_ == end_ || *next_ == '\n';
   }
 
@@ -49,7 +50,10 @@ public:
     return {first, std::size_t(next_ - first)};
   }
 
-  void skip_rest_of_word() { next_ = std::find_if(next_, end_, is_separator); }
+  void skip_rest_of_word()
+  {
+    while (next_ != end_ && !is_separator(*next_) && !is_continued()) ++next_;
+  }
 
   /// The next word, empty at the end of the text.
   std::string_view word()
@@ -100,6 +104,14 @@ public:
   }
 
 private:
+  /// Whether the next character is a backslash that ends its line, which goes on in the next one.
+  bool is_continued() const
+  {
+    if (*next_ != '\\') return false;
+    const std::string_view rest(next_ + 1, std::size_t(end_ - next_ - 1));
+    return rest.substr(0, 1) == "\n" || rest.substr(0, 2) == "\r\n";
+  }
+
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
   static bool is_separator(char c) { return is_blank(c) || c == '\n'; }
 

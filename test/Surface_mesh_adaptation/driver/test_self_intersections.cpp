@@ -274,6 +274,28 @@ TEST(Self_intersections, are_avoided_with_a_tolerance_labels_and_protected_edges
   EXPECT_GT(labelled, 0u);
 }
 
+TEST(Self_intersections, are_avoided_by_faces_that_stay_without_a_mark)
+{
+  std::size_t runs = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const auto [name, soup] = near_sheets::shape(seed);
+    if (pairs(soup) > 0) continue;
+    Mesh mesh = shapes::mesh<Mesh>(soup);
+    auto is_protected = mesh.add_property_map<Mesh::Edge_index, bool>("e:protected", false).first;
+    is_protected[*mesh.edges().begin()] = true;
+    const auto report = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(4 * soup.mean_edge_length()),
+                                                params::avoid_self_intersections(true)
+                                                  .edge_is_constrained_map(is_protected)
+                                                  .protect_constraints(true));
+    const auto says = [](const std::string& s) { return s.find("faces of the input stay") != std::string::npos; };
+    runs += std::any_of(report.warnings.begin(), report.warnings.end(), says) ? 1 : 0;
+    const auto edges = mesh.edges();
+    EXPECT_EQ(std::count_if(edges.begin(), edges.end(), [&](const auto e) { return is_protected[e]; }), 1)
+      << name << ", seed " << seed;
+  }
+  EXPECT_GT(runs, 3u) << "the shapes are no test";
+}
+
 TEST(Self_intersections, are_avoided_with_what_is_around_a_part)
 {
   Soup soup = shapes::sphere(4, 0.2);

@@ -101,6 +101,17 @@ void mark_edges(const Domain& domain, Map map, const Predicate& predicate)
   });
 }
 
+/// Whether the halfedge `h` of the result is one of the input that was asked to be protected: others may have been, so that
+/// faces do not meet.
+template <class Surface>
+bool is_asked_to_be_protected(const Surface& surface, const Feature_parameters& features, Index h)
+{
+  if (!surface.mesh.is_protected(h) || features.halfedge_constraint.empty()) return false;
+  const Index v = surface.origin[surface.mesh.source(h)], w = surface.origin[surface.mesh.target(h)];
+  const Index before = v != no_index && w != no_index ? surface.reference().mesh.any_halfedge(v, w) : no_index;
+  return before != no_index && features.halfedge_constraint[before] == Edge_constraint::protect;
+}
+
 /// Marks the constrained elements of the result in the user's maps, where these can be written.
 template <class Domain, class Surface, class NamedParameters>
 void write_constraints(const Domain& domain, const Surface& surface, const Feature_parameters& features,
@@ -113,7 +124,7 @@ void write_constraints(const Domain& domain, const Surface& surface, const Featu
       put(map, v, o != no_index && features.vertex_is_constrained[o] != 0);
     });
   }
-  const auto is_protected = [&](Index h) { return surface.mesh.is_protected(h); };
+  const auto is_protected = [&](Index h) { return is_asked_to_be_protected(surface, features, h); };
   if constexpr (has_writable_map<NamedParameters, CGAL::internal_np::edge_is_constrained_t>()) {
     const bool are_protected = choose(np, CGAL::internal_np::protect_constraints, false);
     mark_edges(domain, CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained),
