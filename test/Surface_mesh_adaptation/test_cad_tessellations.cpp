@@ -788,6 +788,38 @@ TEST(Overshoot, long_faces_with_chamfered_ends_are_refined)
   }
 }
 
+/// A thin plate of which the upright edges are rounded by far less than its sides are long, in files of text.
+Soup plate(Random& random)
+{
+  const double x = random.real(100, 400), y = random.real(100, 400), r = random.real(1, 3);
+  const int k = 4 + int(random.below(9)); // chords of each arc: rounding must not turn corners of more over
+  std::vector<Vector_3> top;
+  for (int q = 0; q < 4; ++q)
+    for (int i = 0; i <= k; ++i) {
+      const double t = (q + double(i) / k) * pi / 2;
+      top.push_back({(q == 0 || q == 3 ? x : -x) + r * std::cos(t), (q < 2 ? y : -y) + r * std::sin(t), 0});
+    }
+  Part part;
+  part.polygons = prism(top, -3);
+  Soup soup = placed(part, {}, random.next()).soup;
+  for (Vector_3& p : soup.points)
+    for (int i = 0; i < 2; ++i) p[i] = std::round(p[i] * 1000) / 1000;
+  return soup;
+}
+
+TEST(Cad_tessellations, of_plates_with_tight_corners_are_coarse_inside)
+{
+  Random random(1);
+  for (int i = 0; i < 10; ++i) {
+    SCOPED_TRACE(i);
+    auto mesh = shapes::mesh<Surface_mesh>(plate(random));
+    const auto report = SMA::adapt_surface_mesh(sequential, mesh, SMA::Curvature_metric_field(0.001));
+    EXPECT_LT(report.final.vertices, 12000);
+    EXPECT_GT(report.final.in_range, 0.95);
+    EXPECT_GT(report.final.min_quality, 0.1);
+  }
+}
+
 TEST(Cad_tessellations, whose_smooth_surface_leaves_them_by_several_tolerances_are_warned_of)
 {
   const auto warnings = [](int k) {

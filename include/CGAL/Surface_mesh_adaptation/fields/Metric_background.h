@@ -8,6 +8,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/fields/Growth_on_planes.h>
 #include <CGAL/Surface_mesh_adaptation/metric/metric.h>
 #include <CGAL/Surface_mesh_adaptation/metric/parallel_transport.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Reference_surface.h>
@@ -50,6 +51,7 @@ struct Metric_aims
   std::vector<double> deviation_of_face = {}; ///< the same above each face of the input; empty: everywhere that one
   double hmin = 0;               ///< smallest size of a metric that is tightened for that
   double gradation = 1;          ///< and its gradation
+  Growth_on_planes growth = {};  ///< of sizes between the vertices
 };
 
 template <class Metric> class Metric_background;
@@ -93,8 +95,9 @@ public:
       return {1 / size};
     }
     const auto i = reference.interpolation(l);
-    return {1 / (i.weights[0] * sizes_[i.vertices[0]] + i.weights[1] * sizes_[i.vertices[1]] +
-                 i.weights[2] * sizes_[i.vertices[2]])};
+    const double size = i.weights[0] * sizes_[i.vertices[0]] + i.weights[1] * sizes_[i.vertices[1]] +
+                        i.weights[2] * sizes_[i.vertices[2]];
+    return {1 / aims_.growth.at(reference, l, p.position, size)};
   }
 
 private:

@@ -153,6 +153,12 @@ bool wants_proximity(const Intersection_metric_field<Fields...>& field)
   return std::apply([](const auto&... f) { return (wants_proximity(f) || ...); }, field.fields);
 }
 
+/// The largest size that a field asks for.
+inline double largest_size(const Curvature_metric_field& field, double diagonal)
+{
+  return field.hmax > 0 ? field.hmax : 0.1 * diagonal;
+}
+
 inline double gradation(const Curvature_metric_field& field)
 {
   if (field.gradation > 0) return field.gradation;
@@ -192,7 +198,7 @@ void with_vertex_metric(const Execution& execution, const Curvature_metric_field
   check_anisotropy(field.max_anisotropy);
   const double diagonal = diagonal_of_bounding_box(reference.points), tolerance = field.relative_tolerance * diagonal;
   const std::vector<double> deviations = deviations_of_faces(field, tolerance, input.deviations);
-  const double hmax = field.hmax > 0 ? field.hmax : 0.1 * diagonal;
+  const double hmax = largest_size(field, diagonal);
   const double hmin = field.hmin > 0 ? field.hmin : (std::min)(least_deviation(tolerance, deviations), hmax);
   const Size_bounds bounds = field.vertices > 0 ? bounds_of_scaled_metric(field.hmin, field.hmax, diagonal)
                                                 : Size_bounds(hmin, hmax);
@@ -359,6 +365,15 @@ Metric_aims aims(const Execution& execution, const Field& field, [[maybe_unused]
   return result;
 }
 
+/// What `sizes` of a field may be inside of planes, where that says more than their interpolation.
+template <class Execution, class Reference>
+Growth_on_planes growth_on_planes(const Execution& execution, const Curvature_metric_field& field,
+                                  const Reference& reference, const std::vector<double>& sizes)
+{
+  const double hmax = largest_size(field, diagonal_of_bounding_box(reference.points));
+  return {execution, reference, sizes, gradation(field), hmax};
+}
+
 /// Bounds of the sizes at each vertex; none at all if there are no vertices in them.
 struct Vertex_size_bounds
 {
@@ -429,7 +444,9 @@ void with_background(const Execution& execution, const Field& field, const Input
   with_vertex_metric(execution, field, input, reference, [&](auto values) {
     using Value = typename decltype(values)::value_type;
     using Metric = std::conditional_t<std::is_same_v<Value, Metric_tensor_3>, Anisotropic_metric, Isotropic_metric>;
-    const Metric_aims asked = aims(execution, field, input, reference, values);
+    Metric_aims asked = aims(execution, field, input, reference, values);
+    if constexpr (std::is_same_v<Field, Curvature_metric_field> && std::is_same_v<Value, double>)
+      if (field.vertices == 0) asked.growth = growth_on_planes(execution, field, reference, values);
     use(Metric_background<Metric>(execution, std::move(values), asked));
   });
 }

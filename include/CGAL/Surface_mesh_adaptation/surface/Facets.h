@@ -109,7 +109,8 @@ inline bool is_decimal(double x, int digits)
 }
 
 /// How far the rounding of coordinates may have moved the points: to the least of some numbers of decimal digits that
-/// all coordinates agree with, as in files of text, or else to single or to double precision.
+/// all coordinates agree with, as in files of text, or else to single or to double precision. Half a unit of the last
+/// digit is the same from 100 to 999: for its part of the largest coordinate alone chords of small arcs would be one.
 template <class Execution>
 double coordinate_rounding(const Execution& execution, const std::vector<Vector_3>& points)
 {
@@ -126,10 +127,12 @@ double coordinate_rounding(const Execution& execution, const std::vector<Vector_
   constexpr double diagonal_of_cube = 1.7320508075688772;
   const auto moved_by = [&](double relative) { return diagonal_of_cube * relative * largest; };
   const auto are_decimals = [&](int digits) { return all([=](double x) { return is_decimal(x, digits); }); };
-  if (are_decimals(6)) return moved_by(5e-6);
+  const double power = largest > 0 ? std::pow(10.0, std::floor(std::log10(largest))) / largest : 1;
+  const auto half_a_digit = [&](int digits) { return moved_by(5 * power * std::pow(10.0, -digits)); };
+  if (are_decimals(6)) return half_a_digit(6);
   if (all([](double x) { return double(float(x)) == x; })) return moved_by(std::numeric_limits<float>::epsilon() / 2);
   for (const int digits : {9, 12, 14})
-    if (are_decimals(digits)) return moved_by(5 * std::pow(10.0, -digits));
+    if (are_decimals(digits)) return half_a_digit(digits);
   return moved_by(4 * std::numeric_limits<double>::epsilon()); // after a rotation or the like
 }
 
@@ -181,7 +184,8 @@ private:
   struct Plane
   {
     Vector_3 point, normal;
-    double height; ///< the least one of the triangle, 0 for degenerate ones
+    Vector_3 longest; ///< edge of the triangle
+    double height;    ///< over that, 0 for degenerate ones
   };
 
   Plane plane(Index f) const
@@ -189,18 +193,22 @@ private:
     const Index h = 3 * f;
     const Vector_3 &a = points_[mesh_.corner[h]], &b = points_[mesh_.corner[h + 1]], &c = points_[mesh_.corner[h + 2]];
     const Vector_3 n = (b - a).cross(c - a);
-    const double twice_area = n.norm(),
-                 longest = std::sqrt((std::max)({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()}));
-    if (!(twice_area > 0)) return {a, Vector_3::Zero(), 0};
-    return {(a + b + c) / 3, n / twice_area, twice_area / longest};
+    Vector_3 longest = b - a;
+    for (const Vector_3& e : {Vector_3(c - b), Vector_3(a - c)})
+      if (e.squaredNorm() > longest.squaredNorm()) longest = e;
+    const double twice_area = n.norm();
+    if (!(twice_area > 0)) return {a, Vector_3::Zero(), longest, 0};
+    return {(a + b + c) / 3, n / twice_area, longest, twice_area / longest.norm()};
   }
 
   /// Whether rounding explains the distance of `p` from `plane`: what it does to the corners of the triangle grows with
-  /// the distance from that.
+  /// the distance from that, and along a narrow one far less than across.
   bool is_on(const Plane& plane, const Vector_3& p) const
   {
     const Vector_3 d = p - plane.point;
-    return std::abs(d.dot(plane.normal)) <= 2 * facets_.rounding * (1 + d.norm() / plane.height);
+    const double length = plane.longest.norm(), along = std::abs(d.dot(plane.longest)) / length,
+                 across = plane.longest.cross(d).norm() / length;
+    return std::abs(d.dot(plane.normal)) <= 2 * facets_.rounding * (1 + along / length + across / plane.height);
   }
 
   /// Whether a plane is known well enough to say which points are on it: its normal to .01.

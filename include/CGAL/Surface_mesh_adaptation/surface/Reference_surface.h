@@ -91,6 +91,9 @@ public:
     return l.kind == Vertex_class::smooth ? l.cell : Mesh_view::face(mesh.outgoing[interpolation(l).vertices[0]]);
   }
 
+  /// Whether `f` is of a plane of the shape. Normals that are given know better.
+  bool is_plane(Index f) const { return given_.normals.empty() && features.facets.is_plane(f); }
+
   /// What the patch over face `f` is made from.
   Patch patch(Index f) const
   {
@@ -279,9 +282,6 @@ private:
       if (internal::has_fallback(prepared, 0)) has_fallback_[f].store(true, std::memory_order_relaxed);
     });
   }
-
-  /// Whether `f` is of a plane of the shape. Normals that are given know better.
-  bool is_plane(Index f) const { return given_.normals.empty() && features.facets.is_plane(f); }
 
   static void flatten(Patch& p, const Vector_3& normal)
   {
