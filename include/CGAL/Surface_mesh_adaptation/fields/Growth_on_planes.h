@@ -102,9 +102,7 @@ private:
     if (l.kind == Vertex_class::smooth) return is_long_[l.cell];
     if (l.kind == Vertex_class::corner) return false;
     const auto [vertices, weights] = reference.interpolation(l);
-    Index h = reference.mesh.halfedge(vertices[0], vertices[1]);
-    if (h == no_index) h = reference.mesh.halfedge(vertices[1], vertices[0]);
-    const Index t = reference.mesh.twin[h];
+    const Index h = reference.mesh.any_halfedge(vertices[0], vertices[1]), t = reference.mesh.twin[h];
     return is_long_[Mesh_view::face(h)] && (t == no_index || is_long_[Mesh_view::face(t)]);
   }
 
