@@ -366,13 +366,22 @@ Metric_aims aims(const Execution& execution, const Field& field, [[maybe_unused]
 }
 
 /// What `sizes` of a field may be inside of planes, where that says more than their interpolation.
+/// @{
+template <class Execution, class Field, class Reference, class Values>
+Growth_on_planes growth_on_planes(const Execution&, const Field&, const Reference&, const Values&)
+{
+  return {};
+}
+
 template <class Execution, class Reference>
 Growth_on_planes growth_on_planes(const Execution& execution, const Curvature_metric_field& field,
                                   const Reference& reference, const std::vector<double>& sizes)
 {
+  if (field.vertices > 0) return {};
   const double hmax = largest_size(field, diagonal_of_bounding_box(reference.points));
   return {execution, reference, sizes, gradation(field), hmax};
 }
+/// @}
 
 /// Bounds of the sizes at each vertex; none at all if there are no vertices in them.
 struct Vertex_size_bounds
@@ -445,8 +454,7 @@ void with_background(const Execution& execution, const Field& field, const Input
     using Value = typename decltype(values)::value_type;
     using Metric = std::conditional_t<std::is_same_v<Value, Metric_tensor_3>, Anisotropic_metric, Isotropic_metric>;
     Metric_aims asked = aims(execution, field, input, reference, values);
-    if constexpr (std::is_same_v<Field, Curvature_metric_field> && std::is_same_v<Value, double>)
-      if (field.vertices == 0) asked.growth = growth_on_planes(execution, field, reference, values);
+    asked.growth = growth_on_planes(execution, field, reference, values);
     use(Metric_background<Metric>(execution, std::move(values), asked));
   });
 }
