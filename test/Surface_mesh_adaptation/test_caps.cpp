@@ -201,6 +201,27 @@ TEST(Caps, do_not_come_from_the_facets_of_lofts)
     }
 }
 
+/// The share of the faces that have an edge of more than twice the size.
+double share_of_long_faces(const Soup& soup, double size)
+{
+  const auto is_long = [&](const shapes::Triangle& t) {
+    const Vector_3 &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
+    return (std::max)({(b - a).norm(), (c - b).norm(), (a - c).norm()}) > 2 * size;
+  };
+  return double(std::count_if(soup.triangles.begin(), soup.triangles.end(), is_long)) / double(soup.triangles.size());
+}
+
+TEST(Caps, that_are_too_high_to_vanish_do_not_keep_the_edges_around_them_long)
+{
+  Random random(5);
+  for (const double noise : {1e-4, 1e-3, 1e-2}) {
+    SCOPED_TRACE(noise);
+    double share = 0;
+    for (int i = 0; i < 10; ++i) share += share_of_long_faces(adapted(hinge(random, pi / 3, noise), 0.4), 0.4) / 10;
+    EXPECT_LE(share, 0.001);
+  }
+}
+
 TEST(Caps, give_their_place_to_the_values_of_the_faces_beside_them)
 {
   Random random(3);

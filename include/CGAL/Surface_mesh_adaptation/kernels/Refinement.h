@@ -4,8 +4,8 @@
 //
 // A sweep marks edges, evaluates their midpoints on the surface, and cuts every face by the pattern of its marks, all
 // at once and without a conflict graph: a new vertex is written by the face that owns its edge, a new face by its
-// parent. A face of which a child would be inverted, or no smaller than itself, takes its marks back. The sweep also
-// closes the holes that simplification left.
+// parent. A face of which a child would be inverted, or no smaller than itself, takes marks back, its longest edge last.
+// The sweep also closes the holes that simplification left.
 //
 // Invariants: simplicial 2-manifold, features, boundary cycles. Work: O(n) a sweep; span: O(log n).
 
@@ -146,6 +146,7 @@ private:
   void mark()
   {
     fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
+    resize_and_forget(taken_back_, codes_.size());
     for_each_face([&](Index f) {
       for (Index i = 0; i < 3; ++i)
         if (!mesh_.is_protected(3 * f + i) && is_too_long(3 * f + i)) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
@@ -161,19 +162,27 @@ private:
   /// Takes back the marks of edges that are too long but fit the metric better than what would replace them.
   void unmark_fitting_edges()
   {
-    fill(execution_, bad_, mesh_.number_of_faces(), std::uint8_t(0));
-    for_each_face([&](Index f) {
+    for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
+      taken_back_[f] = 0;
       for (Index i = 0; i < 3; ++i)
-        if ((codes_[f] >> i & 1) != 0 && mesh_.is_edge_owner(3 * f + i) && is_better_than_its_parts(3 * f + i))
-          bad_[f] = std::uint8_t(bad_[f] | 1u << i);
+        if ((codes_[f] >> i & 1) != 0 && mesh_.is_edge_owner(3 * Index(f) + i) &&
+            is_better_than_its_parts(3 * Index(f) + i))
+          taken_back_[f] = std::uint8_t(taken_back_[f] | 1u << i);
     }, heavy_chunk_length);
+    take_back_marks();
+  }
+
+  /// Unmarks the edges that one of their faces has taken back.
+  void take_back_marks()
+  {
     for_each_face([&](Index f) {
-      for (Index i = 0; i < 3; ++i) {
-        const Index owner = mesh_.edge_owner(3 * f + i);
-        if ((bad_[owner / 3] >> owner % 3 & 1) != 0) codes_[f] = std::uint8_t(codes_[f] & ~(1u << i));
-      }
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        if (is_taken_back(h) || (!mesh_.is_border(h) && is_taken_back(mesh_.twin[h])))
+          codes_[f] = std::uint8_t(codes_[f] & ~(1u << h % 3));
     });
   }
+
+  bool is_taken_back(Index h) const { return (taken_back_[Mesh_view::face(h)] >> h % 3 & 1) != 0; }
 
   /// Whether the four edges that splitting that of `h` makes fit the metric less than it does.
   bool is_better_than_its_parts(Index h) const
@@ -252,21 +261,33 @@ private:
     return true;
   }
 
-  /// Unmarks the edges of faces with a child that turns away from its parent; whether there was one.
+  /// Unmarks edges of faces with a child that turns away from its parent; whether there was one. The longest edge keeps
+  /// its mark unless it had the only one: it can be split where the others can not, as on needles, and would else keep
+  /// the edges around it long.
   bool take_back_marks_of_bad_faces(const Restructuring& plan)
   {
-    fill(execution_, bad_, mesh_.number_of_faces(), std::uint8_t(0));
-    for_each_face([&](Index f) {
-      bad_[f] = codes_[f] != 0 && !(are_halves_shorter(plan, f) && are_children_upright(plan, f, codes_[f]));
+    for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t i) {
+      const Index f = Index(i);
+      const std::uint8_t code = codes_[f];
+      const bool is_good = code == 0 || (are_halves_shorter(plan, f) && are_children_upright(plan, f, code));
+      taken_back_[f] = is_good ? std::uint8_t(0) : has_several_marks(code) ? all_but_longest(f) : code;
     });
-    if (count_if(execution_, bad_.size(), [&](std::size_t f) { return bad_[f] != 0; }) == 0) return false;
-    for_each_face([&](Index f) {
-      for (Index i = 0; i < 3; ++i) {
-        const Index t = mesh_.twin[3 * f + i];
-        if (bad_[f] || (t != no_index && bad_[t / 3])) codes_[f] = std::uint8_t(codes_[f] & ~(1u << i));
-      }
-    });
-    return true;
+    const bool is_any = count_if(execution_, taken_back_.size(), [&](std::size_t f) { return taken_back_[f] != 0; }) > 0;
+    if (is_any) take_back_marks();
+    return is_any;
+  }
+
+  static bool has_several_marks(std::uint8_t code) { return (code & (code - 1)) != 0; }
+
+  /// The marks of the face but that of its longest marked edge.
+  std::uint8_t all_but_longest(Index f) const
+  {
+    const std::uint8_t code = codes_[f];
+    const auto length_of_marked = [&](Index i) { return (code >> i & 1) != 0 ? surface_.length(3 * f + i) : -1; };
+    Index longest = 0;
+    for (Index i = 1; i < 3; ++i)
+      if (length_of_marked(i) > length_of_marked(longest)) longest = i;
+    return std::uint8_t(code & ~(1u << longest));
   }
 
   /// Of the two ways to cut the quadrilateral that two marks leave, takes the one with the better worst face.
@@ -362,7 +383,7 @@ private:
   std::size_t expected_vertices_ = 0; // for all sweeps
   std::optional<Limit_of_refinement> limit_; // the same
   bool is_at_limit_ = false;
-  Buffer<std::uint8_t> codes_, chosen_, bad_;
+  Buffer<std::uint8_t> codes_, chosen_, taken_back_;
   // the other half of a double buffer: swapped with the surface by `commit`
   Mesh_view spare_;
   Buffer<Vector_3> points_, normals_;
