@@ -851,11 +851,12 @@ TEST(Triangle_piece, is_cut_into_smaller_parts_or_not_at_all)
     const Vector_3 origin = piece.corners[2] + (i % 3) * 1e-9 * random.vector();
     const Vector_3 along = i % 4 < 2 ? random.vector() : Vector_3(piece.corners[2] - piece.corners[1]);
     const Vector_3 normal = along.cross(random.vector());
-    const auto parts = SMA::internal::cut(piece, origin, normal);
-    EXPECT_NEAR(area(parts[0]) + area(parts[1]), area(piece), 1e-6);
-    if (parts[0].corners.empty() || parts[1].corners.empty()) continue;
+    SMA::internal::Triangle_piece below = piece;
+    const SMA::internal::Triangle_piece above = cut_off(below, origin, normal);
+    EXPECT_NEAR(area(below) + area(above), area(piece), 1e-6);
+    if (below.corners.empty() || above.corners.empty()) continue;
     ++cuts;
-    for (const auto& part : parts) {
+    for (const auto& part : {below, above}) {
       EXPECT_GE(part.corners.size(), 3u);
       EXPECT_LT(area(part), area(piece));
     }
@@ -875,7 +876,66 @@ TEST(Triangle_tree, finds_the_nearest_triangle_of_brute_force)
     for (std::size_t t = 0; t < tree.size(); ++t) least = (std::min)(least, SMA::squared_distance_to_triangle(p, tree[t]));
     EXPECT_EQ(tree.nearest(p).squared_distance, least);
     EXPECT_EQ(tree.nearest(p, random.below(tree.size())).squared_distance, least);
+    EXPECT_EQ(tree.nearer_than({1.01 * least, tree.size()}, p).squared_distance, least);
+    EXPECT_EQ(tree.nearer_than({0.99 * least, tree.size()}, p).triangle, tree.size()); // there is none
   }
+}
+
+/// A random point of a triangle.
+Vector_3 point_of(shapes::Random& random, const SMA::Triangle_points& t)
+{
+  double u = random.real(0, 1), v = random.real(0, 1);
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+}
+
+/// A random triangle with an edge of about `size` next to the point `p` of a surface, whose corners are its vertices or
+/// nearly so.
+SMA::Triangle_points triangle_near(shapes::Random& random, const SMA::Triangle_tree& tree, const Vector_3& p, double size)
+{
+  SMA::Triangle_points t;
+  for (Vector_3& corner : t) {
+    const Vector_3 q = p + size * random.vector();
+    corner = tree[tree.nearest(q).triangle][random.below(3)] + (random.below(2) == 0 ? 0.05 * size : 0.0) * random.vector();
+  }
+  return t;
+}
+
+TEST(Is_over_surface, is_never_wrong_where_it_says_yes)
+{
+  shapes::Random random(32);
+  Soup rough = shapes::torus(40, 20, 0.3);
+  for (Vector_3& p : rough.points) p += 0.01 * random.vector();
+  for (const Soup& soup : {rough, shapes::cube(8), shapes::square(12, 0.2)}) {
+    const SMA::Triangle_tree tree(SMA::Sequential_execution(), shapes::view(soup), soup.points);
+    std::size_t yes = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const Vector_3 p = soup.points[random.below(soup.points.size())];
+      const SMA::Triangle_points t = triangle_near(random, tree, p, random.real(0.01, 0.5));
+      const double limit = random.real(0, 0.1);
+      if (!SMA::internal::is_over_surface(tree, t, limit, tree.nearest(t[0]).triangle)) continue;
+      ++yes;
+      for (int k = 0; k < 20; ++k) {
+        const Vector_3 q = k < 3 ? t[std::size_t(k)] : point_of(random, t);
+        EXPECT_LE(tree.nearest(q).squared_distance, limit * limit * (1 + 1e-9));
+      }
+    }
+    EXPECT_GT(yes, 1000u);
+  }
+}
+
+TEST(Is_over_surface, says_yes_to_nearly_all_faces_of_a_mesh_that_is_near)
+{
+  const Soup coarse = shapes::torus(30, 12, 0.3), fine = shapes::torus(120, 48, 0.3);
+  const SMA::Triangle_tree from(SMA::Sequential_execution(), shapes::view(coarse), coarse.points),
+    to(SMA::Sequential_execution(), shapes::view(fine), fine.points);
+  std::size_t yes = 0;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    yes += SMA::internal::is_over_surface(to, from[i], 0.05, to.nearest(from[i][0]).triangle) ? 1 : 0;
+  EXPECT_GT(double(yes), 0.95 * double(from.size()));
 }
 
 // The same for all

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Points of the input that the faces of an adapted mesh cover: its vertices, the middles of its edges and the centroids
-// of its faces. An operation that replaces faces keeps the distance from the input to the mesh if the points that the
-// old ones cover are near the new ones, to which they are handed on. However many operations there are, nothing adds
-// up.
+// Points of the input that the faces of an adapted mesh cover: its vertices and the centroids of its faces. An operation
+// that replaces faces keeps the distance from the input to the mesh if the points that the old ones cover are near the
+// new ones, to which they are handed on. However many operations there are, nothing adds up.
 //
 // Each face has a list of its points, linked through them. Operations write the lists of the faces that they replace
 // alone.
@@ -21,7 +20,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <utility>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -52,22 +50,25 @@ public:
     });
   }
 
-  /// Whether all points that `faces` cover are within `distance` of `triangles`.
+  /// Whether all points that `faces` cover are within `distance` of `triangles`: looked at first for those of the k-th face
+  /// is the k-th of these.
   template <class Faces, class Triangles>
   bool are_near(const Faces& faces, const Triangles& triangles, double distance) const
   {
     Ring<internal::Prepared_triangle> prepared;
     for (const Triangle_points& t : triangles) prepared.emplace_back(t);
-    std::size_t hint = 0; // points that follow each other are mostly near the same triangle
-    for (const Index f : faces)
+    std::size_t k = 0;
+    for (const Index f : faces) {
+      std::size_t hint = (std::min)(k++, prepared.size() - 1);
       for (Index i = lists_.first[f]; i != no_index; i = lists_.next[i])
         if (!is_near(points_[i], prepared, distance * distance, hint)) return false;
+    }
     return true;
   }
 
-  /// Hands the points of `faces` on to the nearest of those of them that are left.
+  /// Hands the points of `faces` on to those of them that are left: to the nearest, or to one that is `near_enough`.
   template <class Faces>
-  void hand_over(const Mesh_view& mesh, const Buffer<Vector_3>& points, const Faces& faces)
+  void hand_over(const Mesh_view& mesh, const Buffer<Vector_3>& points, const Faces& faces, double near_enough)
   {
     Ring<Index> moving;
     for (const Index f : faces) {
@@ -77,13 +78,13 @@ public:
     Ring<Index> left;
     for (const Index f : faces)
       if (!mesh.is_removed_face(f)) left.push_back(f);
-    link_to_nearest(moving, mesh, points, left);
+    link_to_nearest(moving, mesh, points, left, near_enough);
   }
 
   /// Hands the points of all faces on to their children; `mesh` and `points` are as the plan made them.
   template <class Execution>
   void hand_to_children(const Execution& execution, const Restructuring& plan, const Mesh_view& mesh,
-                        const Buffer<Vector_3>& points)
+                        const Buffer<Vector_3>& points, double near_enough)
   {
     Buffer<Index> first_of_parents;
     first_of_parents.swap(lists_.first);
@@ -93,19 +94,18 @@ public:
       for (Index i = first_of_parents[parent]; i != no_index; i = lists_.next[i]) moving.push_back(i);
       const Index end = plan.first_child(Index(parent) + 1);
       for (Index f = plan.first_child(Index(parent)); f < end; ++f) children.push_back(f);
-      if (!children.empty()) link_to_nearest(moving, mesh, points, children);
+      if (!children.empty()) link_to_nearest(moving, mesh, points, children, near_enough);
     }, heavy_chunk_length);
   }
 
 private:
-  /// Calls `add(p)` for the centroid of `f` and those of its corners and middles of edges that no other face has.
+  /// Calls `add(p)` for the centroid of `f` and those of its corners that no other face has.
   template <class Points, class Add>
   static void for_each_own_point(const Mesh_view& mesh, const Points& points, Index f, const Add& add)
   {
     const auto corner = [&](Index k) -> const Vector_3& { return points[mesh.corner[3 * std::size_t(f) + k % 3]]; };
     for (Index k = 0; k < 3; ++k) {
       if (mesh.outgoing[mesh.corner[3 * std::size_t(f) + k]] == 3 * f + k) add(corner(k));
-      if (mesh.is_edge_owner(3 * f + k)) add((corner(k) + corner(k + 1)) / 2);
     }
     add((corner(0) + corner(1) + corner(2)) / 3);
   }
@@ -122,19 +122,35 @@ private:
   }
 
   void link_to_nearest(const Ring<Index>& moving, const Mesh_view& mesh, const Buffer<Vector_3>& points,
-                       const Ring<Index>& faces)
+                       const Ring<Index>& faces, double near_enough)
   {
     Ring<internal::Prepared_triangle> triangles;
     for (const Index f : faces) {
       const auto corner = [&](std::size_t k) { return points[mesh.corner[3 * std::size_t(f) + k]]; };
       triangles.emplace_back(Triangle_points{corner(0), corner(1), corner(2)});
     }
+    std::size_t hint = 0; // points that follow each other mostly belong to one face
     for (const Index i : moving) {
-      std::pair<double, Index> nearest{std::numeric_limits<double>::infinity(), faces.front()};
-      for (std::size_t k = 0; k < faces.size(); ++k)
-        nearest = (std::min)(nearest, {triangles[k].squared_distance(points_[i]).squared, faces[k]});
-      lists_.link(i, nearest.second);
+      hint = nearest(points_[i], triangles, near_enough * near_enough, hint);
+      lists_.link(i, faces[hint]);
     }
+  }
+
+  /// The triangle next to `p`, or the first one from `hint` on that `p` is above and near enough to.
+  static std::size_t nearest(const Vector_3& p, const Ring<internal::Prepared_triangle>& triangles,
+                             double squared_near_enough, std::size_t hint)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    std::size_t result = hint;
+    for (std::size_t n = triangles.size(), i = hint; n > 0; --n, i = i + 1 < triangles.size() ? i + 1 : 0) {
+      const auto d = triangles[i].squared_distance(p);
+      if (d.is_above && d.squared <= squared_near_enough) return i;
+      if (d.squared < least) {
+        least = d.squared;
+        result = i;
+      }
+    }
+    return result;
   }
 
   internal::Point_lists lists_;

@@ -177,7 +177,12 @@ public:
   /// The triangle next to `p`; a guess for it saves time. Near O(log n).
   Nearest nearest(const Vector_3& p, std::size_t guess = 0) const
   {
-    Nearest best{squared_distance_to_triangle(p, triangles_[guess]), guess};
+    return nearer_than({squared_distance_to_triangle(p, triangles_[guess]), guess}, p);
+  }
+
+  /// The triangle next to `p`, if one is nearer than `best`; `best` if none is. The nearer that is, the less is looked at.
+  Nearest nearer_than(Nearest best, const Vector_3& p) const
+  {
     boost::container::static_vector<Entry, 64> stack;
     stack.push_back({levels_.size() - 1, 0, 0});
     while (!stack.empty()) {

@@ -12,6 +12,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_DISTANCE_SURFACE_DISTANCE_H
 
 #include <CGAL/Surface_mesh_adaptation/distance/Triangle_tree.h>
+#include <CGAL/Surface_mesh_adaptation/distance/is_over_surface.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
 
@@ -20,6 +21,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -35,7 +37,8 @@ struct Triangle_piece
 {
   boost::container::small_vector<Vector_3, 10> corners;
   std::size_t guess;  ///< a triangle of the other surface near it
-  bool is_to_be_halved = false; ///< since the last cut left it about as long as what it was cut from
+  double largest_squared_length = std::numeric_limits<double>::infinity(); ///< beyond which it is about as long as what it
+                                                                           ///< was cut from
 
   Vector_3 longest_edge() const
   {
@@ -54,49 +57,60 @@ struct Triangle_piece
     return sum / double(corners.size());
   }
 
-  double largest_squared_distance(const Triangle_points& to) const
+  double largest_squared_distance(const Prepared_triangle& to) const
   {
-    const Prepared_triangle triangle(to);
     double largest = 0;
-    for (const Vector_3& p : corners) largest = (std::max)(largest, triangle.squared_distance(p).squared);
+    for (const Vector_3& p : corners) largest = (std::max)(largest, to.squared_distance(p).squared);
     return largest;
+  }
+
+  bool is_within(const Prepared_triangle& of, double squared_limit) const
+  {
+    return std::all_of(corners.begin(), corners.end(), [&](const Vector_3& p) {
+      return of.squared_distance(p).squared <= squared_limit;
+    });
   }
 };
 
-/// The parts of `piece` on both sides of a plane, the one that `normal` points to last. Either may have no corner: what
+/// Cuts off what lies on the side of a plane that `normal` points to, and returns it. Either part may have no corner: what
 /// sticks out by rounding is not cut off, so that each part that there is is smaller than the piece.
-inline std::array<Triangle_piece, 2> cut(const Triangle_piece& piece, const Vector_3& origin, const Vector_3& normal)
+inline Triangle_piece cut_off(Triangle_piece& piece, const Vector_3& origin, const Vector_3& normal)
 {
   const std::size_t n = piece.corners.size();
   boost::container::small_vector<double, 10> height;
   for (const Vector_3& p : piece.corners) height.push_back(normal.dot(p - origin));
   const auto [lowest, highest] = std::minmax_element(height.begin(), height.end());
   const double on_plane = 1e-6 * (std::max)(-*lowest, *highest);
-  const Triangle_piece nothing{{}, piece.guess};
-  if (*highest <= on_plane) return {piece, nothing};
-  if (*lowest >= -on_plane) return {nothing, piece};
-  std::array<Triangle_piece, 2> parts{nothing, nothing};
+  Triangle_piece above{{}, piece.guess};
+  if (*highest <= on_plane) return above;
+  if (*lowest >= -on_plane) {
+    std::swap(above.corners, piece.corners);
+    return above;
+  }
+  boost::container::small_vector<Vector_3, 10> below;
   for (std::size_t i = 0; i < n; ++i) {
     const Vector_3 &p = piece.corners[i], &q = piece.corners[(i + 1) % n];
     const double dp = height[i], dq = height[(i + 1) % n];
-    if (dp <= on_plane) parts[0].corners.push_back(p);
-    if (dp >= -on_plane) parts[1].corners.push_back(p);
+    if (dp <= on_plane) below.push_back(p);
+    if (dp >= -on_plane) above.corners.push_back(p);
     if ((std::min)(dp, dq) < -on_plane && (std::max)(dp, dq) > on_plane) {
       const Vector_3 x = p + dp / (dp - dq) * (q - p);
-      for (Triangle_piece& part : parts) part.corners.push_back(x);
+      below.push_back(x);
+      above.corners.push_back(x);
     }
   }
-  return parts;
+  piece.corners = below;
+  return above;
 }
 
 /// Calls `use(part)` for the halves of a piece across its longest edge.
 template <class Use>
-void halve(const Triangle_piece& piece, const Use& use)
+void halve(Triangle_piece piece, const Vector_3& longest_edge, const Use& use)
 {
-  for (Triangle_piece& half : cut(piece, piece.center(), piece.longest_edge())) {
-    half.is_to_be_halved = false;
-    if (!half.corners.empty()) use(half);
-  }
+  const Triangle_piece half = cut_off(piece, piece.center(), longest_edge);
+  piece.largest_squared_length = half.largest_squared_length;
+  if (!piece.corners.empty()) use(piece);
+  if (!half.corners.empty()) use(half);
 }
 
 /// Calls `use(part)` for the part of `piece` above the triangle `t` and for what is left at its sides; for halves if
@@ -106,23 +120,24 @@ template <class Use>
 void split(const Triangle_piece& piece, const Triangle_points& t, const Use& use)
 {
   constexpr double share_of_length = 0.9;
-  if (piece.is_to_be_halved) return halve(piece, use);
+  const Vector_3 longest_edge = piece.longest_edge();
+  const double squared_length = longest_edge.squaredNorm();
+  if (squared_length > piece.largest_squared_length) return halve(piece, longest_edge, use);
   const Vector_3 n = (t[1] - t[0]).cross(t[2] - t[0]);
   Triangle_piece rest = piece;
-  boost::container::static_vector<Triangle_piece, 4> sides;
+  boost::container::static_vector<Triangle_piece, 3> sides;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto parts = cut(rest, t[i], (t[(i + 1) % 3] - t[i]).cross(n));
-    if (parts[0].corners.empty()) return halve(piece, use);
-    rest = parts[0];
-    if (!parts[1].corners.empty()) sides.push_back(parts[1]);
+    Triangle_piece side = cut_off(rest, t[i], (t[(i + 1) % 3] - t[i]).cross(n));
+    if (rest.corners.empty()) return halve(piece, longest_edge, use);
+    if (!side.corners.empty()) sides.push_back(std::move(side));
   }
-  if (sides.empty()) return halve(piece, use);
-  sides.push_back(rest);
-  const double squared_length = share_of_length * share_of_length * piece.longest_edge().squaredNorm();
-  for (Triangle_piece& part : sides) {
-    part.is_to_be_halved = part.longest_edge().squaredNorm() > squared_length;
-    use(part);
+  if (sides.empty()) return halve(piece, longest_edge, use);
+  rest.largest_squared_length = share_of_length * share_of_length * squared_length;
+  for (Triangle_piece& side : sides) {
+    side.largest_squared_length = rest.largest_squared_length;
+    use(side);
   }
+  use(rest);
 }
 
 } // namespace internal
@@ -133,28 +148,30 @@ template <class Guesses>
 bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit, const Guesses& guesses,
                std::size_t max_pieces)
 {
+  if (internal::is_over_surface(tree, t, limit, *guesses.begin())) return true;
   const double squared_limit = limit * limit;
   Ring<internal::Triangle_piece> pieces{{{t.begin(), t.end()}, 0}};
   for (const std::size_t guess : guesses) {
-    if (pieces[0].largest_squared_distance(tree[guess]) <= squared_limit) return true;
+    if (pieces[0].is_within(internal::Prepared_triangle(tree[guess]), squared_limit)) return true;
     pieces[0].guess = guess;
   }
   for (std::size_t looked_at = 0; !pieces.empty(); ++looked_at) {
     if (looked_at == max_pieces) return false;
-    const internal::Triangle_piece piece = pieces.back();
+    const internal::Triangle_piece piece = std::move(pieces.back());
     pieces.pop_back();
     const Vector_3 center = piece.center();
     std::size_t near = tree.towards(center, piece.guess); // any triangle that is near enough will do
-    if (squared_distance_to_triangle(center, tree[near]) > squared_limit) {
-      const auto nearest = tree.nearest(center, near);
-      if (nearest.squared_distance > squared_limit) return false;
-      near = nearest.triangle;
+    internal::Prepared_triangle to(tree[near]);
+    if (to.squared_distance(center).squared > squared_limit) {
+      near = tree.nearer_than({squared_limit, tree.size()}, center).triangle;
+      if (near == tree.size()) return false; // none is
+      to = internal::Prepared_triangle(tree[near]);
     }
-    const Triangle_points& to = tree[near];
-    if (piece.largest_squared_distance(to) <= squared_limit) continue;
-    internal::split(piece, to, [&](internal::Triangle_piece part) {
-      part.guess = near;
-      if (part.largest_squared_distance(to) > squared_limit) pieces.push_back(part);
+    if (piece.is_within(to, squared_limit)) continue;
+    internal::split(piece, tree[near], [&](const internal::Triangle_piece& part) {
+      if (part.is_within(to, squared_limit)) return;
+      pieces.push_back(part);
+      pieces.back().guess = near;
     });
   }
   return true;
@@ -191,44 +208,52 @@ inline double distance_bound(const Triangle_tree& tree, const Triangle_points& t
     pieces.pop_back();
     const Vector_3 center = piece.center();
     std::size_t near = tree.towards(center, piece.guess);
-    double bound = std::sqrt(piece.largest_squared_distance(tree[near]));
+    const auto bound_by = [&](std::size_t i) {
+      return std::sqrt(piece.largest_squared_distance(internal::Prepared_triangle(tree[i])));
+    };
+    double bound = bound_by(near);
     if (bound > allowed()) {
       const auto nearest = tree.nearest(center, near);
       near = nearest.triangle;
       lower = (std::max)(lower, std::sqrt(nearest.squared_distance));
-      bound = std::sqrt(piece.largest_squared_distance(tree[near]));
+      bound = bound_by(near);
     }
     if (bound <= allowed() || ++looked_at >= max_pieces) {
       upper = (std::max)(upper, bound);
       continue;
     }
-    internal::split(piece, tree[near], [&](internal::Triangle_piece part) {
-      part.guess = near;
+    internal::split(piece, tree[near], [&](const internal::Triangle_piece& part) {
       pieces.push_back(part);
+      pieces.back().guess = near;
     });
   }
   return upper;
 }
 
 /// An upper bound, by no more than `precision` too large, of the distance that points of one surface have from the
-/// other. A precision that is lost in rounding is replaced by one that is not.
+/// other, or `least`, if that is larger. A precision that is lost in rounding is replaced by one that is not.
 template <class Execution>
 double one_sided_distance_bound(const Execution& execution, const Triangle_tree& from, const Triangle_tree& to,
-                                Distance_precision precision)
+                                Distance_precision precision, double least = 0)
 {
   constexpr double rounding = 1e-13;
+  constexpr std::size_t stride = 4; // of the triangles of which points tell how large the distance is at least
   precision.absolute = (std::max)(precision.absolute, rounding * (std::max)(to.magnitude(), from.magnitude()));
   const auto larger = [](double a, double b) { return (std::max)(a, b); };
-  std::vector<std::size_t> guess(from.size());
-  const double lower = std::sqrt(reduce(execution, from.size(), 0.0, [&](std::size_t i) {
-    const Vector_3 center = (from[i][0] + from[i][1] + from[i][2]) / 3;
+  std::vector<std::size_t> guess((from.size() + stride - 1) / stride);
+  const double lower = std::sqrt(reduce(execution, guess.size(), 0.0, [&](std::size_t j) {
+    const std::size_t i = stride * j;
+    const Vector_3 p = j % 2 == 0 ? from[i][0] : Vector_3((from[i][0] + from[i][1] + from[i][2]) / 3);
     // both are in order along the same curve, more or less
-    const auto nearest = to.nearest(center, to.towards(center, i * to.size() / from.size()));
-    guess[i] = nearest.triangle;
+    const auto nearest = to.nearest(p, to.towards(p, i * to.size() / from.size()));
+    guess[j] = nearest.triangle;
     return nearest.squared_distance;
   }, larger));
-  return reduce(execution, from.size(), 0.0, [&](std::size_t i) {
-    return distance_bound(to, from[i], lower + precision.of(lower), precision, guess[i]);
+  const double enough = (std::max)(least, lower + precision.of(lower));
+  return reduce(execution, from.size(), least, [&](std::size_t i) {
+    const std::size_t near = guess[i / stride];
+    return internal::is_over_surface(to, from[i], enough, near) ? enough
+                                                                : distance_bound(to, from[i], enough, precision, near);
   }, larger);
 }
 
@@ -238,8 +263,7 @@ template <class Execution>
 double hausdorff_distance_bound(const Execution& execution, const Triangle_tree& a, const Triangle_tree& b,
                                 const Distance_precision& precision)
 {
-  return (std::max)(one_sided_distance_bound(execution, a, b, precision),
-                    one_sided_distance_bound(execution, b, a, precision));
+  return one_sided_distance_bound(execution, b, a, precision, one_sided_distance_bound(execution, a, b, precision));
 }
 
 /// @}

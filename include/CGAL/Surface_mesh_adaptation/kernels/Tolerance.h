@@ -70,17 +70,20 @@ public:
   template <class Surface, class Faces>
   void hand_over(const Surface& surface, const Faces& faces)
   {
-    covered_.hand_over(surface.mesh, surface.points, faces);
+    covered_.hand_over(surface.mesh, surface.points, faces, near_enough());
   }
 
   /// Hands what all faces cover on to their children, after `plan` was carried out.
   template <class Execution, class Surface>
   void hand_to_children(const Execution& execution, const Restructuring& plan, const Surface& surface)
   {
-    covered_.hand_to_children(execution, plan, surface.mesh, surface.points);
+    covered_.hand_to_children(execution, plan, surface.mesh, surface.points, near_enough());
   }
 
 private:
+  /// To a face that covers a point, so that it need not be the nearest.
+  double near_enough() const { return of_operations() / 8; }
+
   const Reference* reference_;
   const Tolerance* tolerance_;
   Covered_points covered_;
