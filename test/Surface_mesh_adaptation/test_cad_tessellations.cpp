@@ -445,6 +445,48 @@ Part rounded_plate(int k)
   return part;
 }
 
+/// A rod of radius .3 that is bent by a right angle between two straight pieces of length 1, in `around` chords, an even
+/// number, and `along` the bend. Its flanks are in planes: facets that go around the bend.
+Part elbow(std::size_t around, std::size_t along)
+{
+  constexpr double r = 0.3, length = 1;
+  std::vector<std::pair<Vector_3, Vector_3>> sections; // the center, and the direction that is across the bend
+  sections.emplace_back(Vector_3(0, 0, 0), Vector_3(1, 0, 0));
+  for (std::size_t i = 0; i <= along; ++i) {
+    const double angle = pi / 2 * double(i) / double(along);
+    const Vector_3 across(std::cos(angle), 0, -std::sin(angle));
+    sections.emplace_back(Vector_3(1, 0, length) - across, across);
+  }
+  sections.emplace_back(Vector_3(1 + length, 0, length + 1), Vector_3(0, 0, -1));
+  const auto point = [&](std::size_t j, std::size_t i) -> Vector_3 {
+    const double angle = (double(i) + 0.5) * 2 * pi / double(around);
+    return sections[j].first + r * (std::sin(angle) * sections[j].second + Vector_3(0, std::cos(angle), 0));
+  };
+  Part part;
+  std::vector<Vector_3> bottom, top;
+  for (std::size_t i = 0; i < around; ++i) {
+    for (std::size_t j = 0; j + 1 < sections.size(); ++j)
+      part.polygons.add({point(j + 1, i), point(j + 1, i + 1), point(j, i + 1), point(j, i)});
+    bottom.push_back(point(0, i));
+    top.push_back(point(sections.size() - 1, around - 1 - i));
+  }
+  part.polygons.add(bottom);
+  part.polygons.add(top);
+  part.distance = [=](const Vector_3& p) {
+    const double low = std::hypot(p[0], p[1]), high = std::hypot(p[1], p[2] - length - 1);
+    const double bend = std::hypot(std::hypot(p[0] - 1, p[2] - length) - 1, p[1]);
+    const double side = std::abs((p[2] <= length ? low : p[0] >= 1 ? high : bend) - r);
+    return (std::min)({side, std::abs(p[2]), std::abs(p[0] - 1 - length)});
+  };
+  part.is_flat = [=](const Vector_3& p) {
+    return (std::abs(p[2]) < 1e-6 && std::hypot(p[0], p[1]) < r - 1e-2) ||
+           (std::abs(p[0] - 1 - length) < 1e-6 && std::hypot(p[1], p[2] - length - 1) < r - 1e-2);
+  };
+  part.sag = r * (1 - std::cos(pi / double(around))) + (1 + r) * (1 - std::cos(pi / double(4 * along)));
+  part.size = 0.1;
+  return part;
+}
+
 /// A box with sharp edges.
 Part box()
 {
@@ -536,6 +578,16 @@ TEST(Cad_tessellations, of_a_knob_keep_the_circles_where_its_pieces_meet)
 {
   expect_errors(knob(30, 1), {0.5, 0.25}, {10, 0.8});
   expect_errors(knob(90, 1), {0.5, 0.25}, {10, 0.8});
+}
+
+TEST(Cad_tessellations, of_bent_rods_round_the_flanks_too)
+{
+  Random random(7);
+  for (int i = 0; i < 6; ++i) {
+    const std::size_t around = 2 * (8 + random.below(16)), along = 5 + random.below(8);
+    SCOPED_TRACE(std::to_string(around) + " around, " + std::to_string(along) + " along");
+    expect_errors(elbow(around, along), {0.5, 0.25}, {10, 0.8});
+  }
 }
 
 TEST(Cad_tessellations, of_a_rounded_plate_round_the_arcs_between_long_edges)

@@ -94,7 +94,7 @@ namespace internal {
 /// Whether two sizes differ by the factor `ratio` at most.
 inline bool are_alike(double a, double b, double ratio) { return a <= ratio * b && b <= ratio * a; }
 
-/// Largest ratio of the areas, and of the sides, of facets of one net.
+/// Largest ratio of the areas of facets of one net: near poles of spheres they shrink fast.
 constexpr double largest_ratio_in_nets = 4;
 
 /// Two planes of the shape meet in an edge if their normals are farther apart than this, in radians: two degrees.

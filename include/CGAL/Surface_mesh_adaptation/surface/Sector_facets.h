@@ -33,7 +33,7 @@ public:
     for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h)) {
       const Index face = Mesh_view::face(h);
       if (corners_.empty() || corners_.back().facet != facets.of_face[face])
-        corners_.push_back({facets.of_face[face], h, h, Vector_3::Zero(), Vector_3::Zero()});
+        corners_.push_back({facets.of_face[face], h, h, Vector_3::Zero(), Vector_3::Zero(), 0});
       corners_.back().last = h;
     }
     is_closed_ = is_closed;
@@ -41,10 +41,11 @@ public:
     for (Corner& c : corners_) {
       c.right = facets.side(mesh, points, c.first);
       c.left = side_to(mesh, points, Mesh_view::previous(c.last));
+      c.depth = is_wide(c) ? depth(mesh, points, c) : 0;
       const double next2 = (points[mesh.target(c.first)] - points[mesh.source(c.first)]).squaredNorm();
       has_split_side_ = has_split_side_ || c.right.squaredNorm() > next2;
     }
-    is_in_one_row_ = !is_closed && ends_on_creases(mesh);
+    is_in_one_row_ = !is_closed && is_row(mesh, points);
   }
 
   /// The largest plane of the shape among them, or null.
@@ -77,7 +78,7 @@ public:
     for (const Corner& c : corners_) {
       if (!are_alike(facet(c).area, facet(first).area, largest_ratio_in_nets) || !(sine(c) > least_sine)) return false;
       for (const Vector_3* s : {&c.right, &c.left})
-        if (is_closed_ && !are_alike(s->norm(), first.right.norm(), largest_ratio_in_nets)) return false;
+        if (is_closed_ && !are_alike(s->norm(), first.right.norm(), largest_ratio_of_sides)) return false;
     }
     return true;
   }
@@ -96,12 +97,14 @@ public:
   }
 
 private:
-  static constexpr double longest_chord = 3; // times that of the other side of a vertex, as of facets of one thing
+  /// Of one thing; rulings of a straight pipe may be no more than twice as long as what goes on around its bend.
+  static constexpr double largest_ratio_of_sides = 2;
 
   struct Corner
   {
     Index facet, first, last; // halfedges that leave the vertex in its first and last face
     Vector_3 right, left; // sides from the vertex on
+    double depth;         // of the facet between them, if the corner is wide
   };
 
   const Facet& facet(const Corner& c) const { return facets_.facets[c.facet]; }
@@ -115,15 +118,26 @@ private:
     return first;
   }
 
-  /// Whether all sides between the facets of an open sector end on creases again.
-  bool ends_on_creases(const Mesh_view& mesh) const
+  /// Whether all sides between the facets of an open sector end on creases again, or where what goes on is far shorter.
+  bool is_row(const Mesh_view& mesh, const std::vector<Vector_3>& points) const
   {
     const auto ends = [&](const Corner& c) {
-      bool is_on_crease = false;
-      mesh.for_each_outgoing(mesh.target(c.first), [&](Index h) { is_on_crease |= mesh.is_crease(h); });
-      return is_on_crease;
+      const Index end = mesh.target(c.first);
+      bool is_on_crease = false, goes_on = false;
+      mesh.for_each_outgoing(end, [&](Index h) {
+        is_on_crease |= mesh.is_crease(h);
+        goes_on |= is_continued(c.right, points[mesh.target(h)] - points[end]);
+      });
+      return is_on_crease || !goes_on;
     };
     return corners_.size() > 1 && std::all_of(corners_.begin() + 1, corners_.end(), ends);
+  }
+
+  /// Whether the side `d` goes on in `next`, straight and not much shorter.
+  static bool is_continued(const Vector_3& d, const Vector_3& next)
+  {
+    return next.squaredNorm() * largest_ratio_of_sides * largest_ratio_of_sides >= d.squaredNorm() &&
+           d.dot(next) > straight * std::sqrt(d.squaredNorm() * next.squaredNorm());
   }
 
   /// From the target of the border halfedge `h` back to where the border ceases to be straight.
@@ -138,15 +152,25 @@ private:
     Vector_3 by_corners = Vector_3::Zero(), by_areas = Vector_3::Zero();
     double largest_sine = 0;
     for (const Corner& c : corners_) {
-      const double s = sine(c);
-      if (s > 0) by_corners += s / std::sqrt(c.right.squaredNorm() * c.left.squaredNorm()) * facet(c).normal;
+      const double s = c.depth > 0 ? 1 : sine(c);
+      if (s > 0) by_corners += weight(c) * facet(c).normal;
       if (facet(c).area > 0) by_areas += facet(c).normal / facet(c).area;
       largest_sine = (std::max)(largest_sine, s);
     }
-    return largest_sine > least_sine ? by_corners : by_areas; // the latter inside of a side
+    return largest_sine > least_sine ? by_corners : by_areas; // the latter for slivers
   }
 
-  static constexpr double least_sine = 0.01; // of a corner; less: the vertex lies inside of a side
+  /// That of Max; a wide corner is cut in two, so that a facet counts whose side just goes on at the vertex.
+  double weight(const Corner& c) const
+  {
+    const double right = c.right.norm(), left = c.left.norm();
+    if (!(c.depth > 0)) return sine(c) / (right * left);
+    const double sine_of_half = (c.right / right - c.left / left).norm() / 2;
+    return sine_of_half / c.depth * (1 / right + 1 / left);
+  }
+
+  static constexpr double least_sine = 0.01; // of a corner; less: it belongs to a sliver
+  static constexpr double straight = 0.7;    // cosine: 45 degrees from straight on
 
   /// Of the angle at the corner `c`; negative where it is reflex.
   double sine(const Corner& c) const
@@ -154,11 +178,26 @@ private:
     return c.right.cross(c.left).dot(facet(c).normal) / std::sqrt(c.right.squaredNorm() * c.left.squaredNorm());
   }
 
+  static bool is_wide(const Corner& c)
+  {
+    return c.right.dot(c.left) < -straight * std::sqrt(c.right.squaredNorm() * c.left.squaredNorm());
+  }
+
+  /// How far the triangles of a facet reach from the vertex along the line that bisects its corner there.
+  double depth(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Corner& c) const
+  {
+    const Vector_3 inwards = facet(c).normal.cross(c.right.normalized() - c.left.normalized()).normalized();
+    double depth = 0;
+    for (Index h = c.first; h != c.last; h = mesh.rotated_ccw(h))
+      depth = (std::max)(depth, inwards.dot(points[mesh.apex(h)] - points[mesh.source(h)]));
+    return depth;
+  }
+
   /// Whether the side `d` is a straight line of the shape: far longer than the one that goes on across the vertex.
   bool is_straight(const Vector_3& d) const
   {
     const Vector_3* opposite = nullptr;
-    double least_cosine = -0.7; // 45 degrees from straight on
+    double least_cosine = -straight;
     for (const Corner& c : corners_)
       for (const Vector_3* s : {&c.right, &c.left}) {
         const double cosine = s->dot(d) / std::sqrt(s->squaredNorm() * d.squaredNorm());
@@ -166,7 +205,7 @@ private:
         least_cosine = cosine;
         opposite = s;
       }
-    return opposite && d.squaredNorm() > longest_chord * longest_chord * opposite->squaredNorm();
+    return opposite && d.squaredNorm() > largest_ratio_of_sides * largest_ratio_of_sides * opposite->squaredNorm();
   }
 
   const Facets& facets_;
