@@ -26,7 +26,6 @@ void remesh_with_cgal(Mesh& mesh, double size)
   constexpr unsigned int iterations = 3;
   auto is_sharp = mesh.add_property_map<Mesh::Edge_index, bool>("e:is_sharp", false).first;
   PMP::detect_sharp_edges(mesh, feature_angle, is_sharp);
-  PMP::split_long_edges(edges(mesh), size, mesh, CGAL::parameters::edge_is_constrained_map(is_sharp));
   PMP::isotropic_remeshing(faces(mesh), size, mesh,
                            CGAL::parameters::number_of_iterations(iterations).edge_is_constrained_map(is_sharp));
 }
