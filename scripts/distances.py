@@ -81,6 +81,13 @@ def sampled(points, faces, least):
     return samples(points, faces, sides)
 
 
+def rms_over_faces(distances, points, faces):
+    """The root mean square over a mesh of `distances` at `samples` of it."""
+    a, b, c = (points[faces[:, i]] for i in range(3))
+    area = numpy.linalg.norm(numpy.cross(b - a, c - a), axis=1)
+    return numpy.sqrt(numpy.average((distances.reshape(len(faces), -1) ** 2).mean(1), weights=area))
+
+
 def run(command):
     """How long it took; none if it failed or takes too long."""
     start = time.time()
