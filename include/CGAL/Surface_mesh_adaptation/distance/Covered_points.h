@@ -103,10 +103,9 @@ private:
   template <class Points, class Add>
   static void for_each_own_point(const Mesh_view& mesh, const Points& points, Index f, const Add& add)
   {
-    const auto corner = [&](Index k) -> const Vector_3& { return points[mesh.corner[3 * std::size_t(f) + k % 3]]; };
-    for (Index k = 0; k < 3; ++k) {
+    const auto corner = [&](Index k) -> const Vector_3& { return points[mesh.corner[3 * std::size_t(f) + k]]; };
+    for (Index k = 0; k < 3; ++k)
       if (mesh.outgoing[mesh.corner[3 * std::size_t(f) + k]] == 3 * f + k) add(corner(k));
-    }
     add((corner(0) + corner(1) + corner(2)) / 3);
   }
 
