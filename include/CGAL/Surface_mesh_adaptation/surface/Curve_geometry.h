@@ -49,8 +49,8 @@ private:
     if (!c.closed && i + 1 == n) return -end_tangent(strokes, -strokes.before(i), -strokes.last_but_one());
     const Vector_3 dm = strokes.before(i), dp = strokes.after(i);
     const double lm = dm.norm(), lp = dp.norm();
-    if (strokes.is_longer(lm, lp)) return dm / lm;
-    if (strokes.is_longer(lp, lm)) return dp / lp;
+    if (strokes.is_line_before(i)) return dm / lm;
+    if (strokes.is_line_after(i)) return dp / lp;
     return (lm * lp > 0 ? dp * (lm / lp) + dm * (lp / lm) : dp + dm).normalized();
   }
 

@@ -41,7 +41,8 @@ struct Facets
   std::vector<Facet> facets;
   std::vector<Index> of_face;   ///< index into `facets` for each face; empty if there are none
 
-  bool are_meshed = false;      ///< whether a mesher has been over them: many vertices lie inside of facets
+  bool are_meshed = false;      ///< whether a mesher has been over them: many vertices lie inside of facets, curved ones
+                                ///< among these
 
   bool empty() const { return of_face.empty(); }
 
@@ -96,6 +97,8 @@ inline bool are_alike(double a, double b, double ratio) { return a <= ratio * b 
 
 /// Largest ratio of the areas of facets of one net: near poles of spheres they shrink fast.
 constexpr double largest_ratio_in_nets = 4;
+
+inline double angle_between(const Vector_3& a, const Vector_3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 /// Two planes of the shape meet in an edge if their normals are farther apart than this, in radians: two degrees.
 constexpr double least_turn_between_planes = 0.035;
@@ -156,9 +159,10 @@ public:
     facets_.of_face.assign(mesh_.number_of_faces(), no_index);
     for (const Index f : faces_by_area(execution))
       if (facets_.of_face[f] == no_index) grow(f);
-    find_inner_vertices();
-    if (facets_.are_meshed && mean_quality(execution) > least_quality_of_meshers)
-      return {facets_.rounding, {}, {}, false};
+    if (find_inner_vertices() > largest_share_inside * double(mesh_.number_of_vertices())) {
+      if (mean_quality(execution) > least_quality_of_meshers) return {facets_.rounding, {}, {}, false};
+      facets_.are_meshed = true;
+    }
     return std::move(facets_);
   }
 
@@ -272,8 +276,9 @@ private:
     facets_.facets.push_back(facet);
   }
 
-  /// Vertices inside of the sides of two facets count half: the neighbours of these may have put them there.
-  void find_inner_vertices()
+  /// Returns their number. Vertices inside of the sides of two facets count half: the neighbours of these may have put
+  /// them there.
+  double find_inner_vertices()
   {
     double inside = 0;
     for (std::size_t v = 0; v < mesh_.number_of_vertices(); ++v) {
@@ -282,7 +287,7 @@ private:
       if (n == 1) facets_.facets[facets_.of_face[Mesh_view::face(mesh_.outgoing[v])]].has_inner_vertices = true;
       inside += n == 1 ? 1 : n == 2 ? 0.5 : 0;
     }
-    facets_.are_meshed = inside > largest_share_inside * double(mesh_.number_of_vertices());
+    return inside;
   }
 
   /// The number of facets around `v`; those that come back count again.
@@ -301,140 +306,6 @@ private:
   Facets facets_;
 };
 
-inline double angle_between(const Vector_3& a, const Vector_3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
-/// Tells planes of the shape from facets of what is curved, by how much the surface bends at a facet: the sum of the
-/// angles times the lengths of its smooth borders over its area, about twice the curvature. Facets of something curved
-/// are like their neighbours in this, and form rows or nets of three and more. A plane is far flatter than what joins
-/// it smoothly, or has planes only beside it that are still flatter, as a chamfer has. Nobody but a mesher puts a
-/// vertex inside of a facet of something curved: it would lie beside it.
-class Plane_search
-{
-public:
-  /// Takes the edges whose halfedge satisfies `is_smooth`.
-  template <class Smooth>
-  Plane_search(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Smooth& is_smooth, Facets& facets)
-    : facets_(facets.facets), bend_(facets_.size(), 0), row_(facets_.size()), length_of_row_(facets_.size(), 0)
-    , are_meshed_(facets.are_meshed)
-  {
-    std::iota(row_.begin(), row_.end(), Index(0));
-    if (!facets.are_meshed)
-      for (Facet& f : facets_) f.is_plane = f.has_inner_vertices;
-    for (std::size_t i = 0; i < mesh.number_of_halfedges(); ++i) {
-      const Index h = Index(i);
-      if (mesh.is_border(h) || !mesh.is_edge_owner(h) || !is_smooth(h)) continue;
-      const Index f = facets.of_face[Mesh_view::face(h)], g = facets.of_face[Mesh_view::face(mesh.twin[h])];
-      if (f == g) continue;
-      borders_.push_back({f, g, (points[mesh.target(h)] - points[mesh.source(h)]).norm(),
-                          angle_between(facets_[f].normal, facets_[g].normal)});
-    }
-  }
-
-  void run()
-  {
-    measure_bends();
-    join_rows();
-    mark_planes();
-    if (are_meshed_) unmark_bent_planes();
-  }
-
-private:
-  static constexpr double largest_ratio = 3; // of the bends of facets of one thing: it is 5 from fillets to planes of
-                                             // three times their width, and 2 along splines
-  static constexpr Index shortest_row = 3;   // two facets may as well be a roof
-
-  struct Border
-  {
-    Index f, g; // facets
-    double length, turn;
-  };
-
-  void measure_bends()
-  {
-    for (const Border& b : borders_)
-      for (const Index f : {b.f, b.g}) bend_[f] += b.turn * b.length;
-    for (std::size_t f = 0; f < bend_.size(); ++f)
-      bend_[f] = facets_[f].area > 0 ? bend_[f] / facets_[f].area : std::numeric_limits<double>::infinity();
-  }
-
-  bool are_like(const Border& b) const
-  {
-    if (facets_[b.f].is_plane || facets_[b.g].is_plane) return false;
-    return are_alike(bend_[b.f], bend_[b.g], largest_ratio);
-  }
-
-  void join_rows()
-  {
-    std::vector<double> length(facets_.size(), 0);
-    for (const Border& b : borders_) {
-      if (!are_like(b)) continue;
-      row_[(std::max)(row(b.f), row(b.g))] = (std::min)(row(b.f), row(b.g));
-      for (const Index f : {b.f, b.g}) {
-        facets_[f].turn += b.turn * b.length;
-        length[f] += b.length;
-      }
-    }
-    for (std::size_t f = 0; f < facets_.size(); ++f) {
-      ++length_of_row_[row(Index(f))];
-      if (length[f] > 0) facets_[f].turn /= length[f];
-    }
-  }
-
-  /// The facet that stands for the row of `f`.
-  Index row(Index f)
-  {
-    while (row_[f] != f) f = row_[f] = row_[row_[f]];
-    return f;
-  }
-
-  /// From the flattest on: what a facet has to be compared with is known when its turn comes.
-  void mark_planes()
-  {
-    const auto flatter = [&](const Border& b) { return (std::min)(bend_[b.f], bend_[b.g]); };
-    std::stable_sort(borders_.begin(), borders_.end(), [&](const Border& a, const Border& b) {
-      return flatter(a) < flatter(b);
-    });
-    std::vector<std::uint8_t> is_open(facets_.size());
-    for (std::size_t f = 0; f < facets_.size(); ++f) {
-      is_open[f] = !facets_[f].is_plane && facets_[f].faces > 1 && length_of_row_[row(Index(f))] < shortest_row;
-      if (is_open[f]) facets_[f].is_plane = true;
-    }
-    for (const Border& b : borders_) {
-      const bool is_f_open = is_open[b.f], is_g_open = is_open[b.g];
-      if (is_f_open && !is_g_open && is_chance(facets_[b.f], facets_[b.g])) facets_[b.f].is_plane = false;
-      if (is_g_open && !is_f_open && is_chance(facets_[b.g], facets_[b.f])) facets_[b.g].is_plane = false;
-    }
-    for (const Border& b : borders_) {
-      const Index steep = bend_[b.f] < bend_[b.g] ? b.g : b.f, flat = steep == b.f ? b.g : b.f;
-      if (is_open[steep] && row(steep) != row(flat) && !facets_[flat].is_plane) facets_[steep].is_plane = false;
-    }
-  }
-
-  /// Where no edges are marked, a plane that is bent into something else has no normal at its border that fits both.
-  void unmark_bent_planes()
-  {
-    for (const Border& b : borders_)
-      if (b.turn > least_turn_between_planes) facets_[b.f].is_plane = facets_[b.g].is_plane = false;
-  }
-
-  /// Whether `f` may be triangles of a mesh that happen to lie in a plane: `g` beside it is a triangle or a plane that
-  /// is meshed, and `f` is not far larger than its triangles.
-  static bool is_chance(const Facet& f, const Facet& g)
-  {
-    const bool is_meshed = g.faces == 1 || (g.is_plane && g.faces >= fewest_meshed);
-    return is_meshed && f.area < least_size * g.area / g.faces;
-  }
-
-  static constexpr Index fewest_meshed = 16;
-  static constexpr double least_size = 4;
-
-  std::vector<Facet>& facets_;
-  std::vector<Border> borders_;
-  std::vector<double> bend_;
-  std::vector<Index> row_, length_of_row_;
-  bool are_meshed_;
-};
-
 } // namespace internal
 
 /// Finds the facets of a mesh; which of them are planes is left open, but for those with vertices inside.
@@ -442,13 +313,6 @@ template <class Execution>
 Facets find_facets(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points)
 {
   return internal::Facet_search(mesh, points).run(execution);
-}
-
-/// Decides which of the `facets` are planes of the shape; others join over the edges for which `is_smooth(h)`.
-template <class Smooth>
-void find_planes(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Smooth& is_smooth, Facets& facets)
-{
-  internal::Plane_search(mesh, points, is_smooth, facets).run();
 }
 
 } // namespace Surface_mesh_adaptation

@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/surface/Facet_edges.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Plane_search.h>
 #include <CGAL/Surface_mesh_adaptation/surface/vertex_normals.h>
 
 #include <CGAL/number_type_config.h>
