@@ -56,7 +56,7 @@ public:
     const Metric_aims& aims = surface_.background().aims();
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
-    is_adapted_ = report_.initial.in_range > adapted_share;
+    is_adapted_ = report_.initial.in_range > adapted_share && report_.initial.mean_quality > least_adapted_quality;
     relocation_.expect_adapted(is_adapted_);
     find_work();
     do_rounds(rounds, report_.initial);
@@ -276,7 +276,8 @@ private:
       visitor_.round_done(round_, current());
       ++round_;
       ++report_.rounds;
-      if (!is_improving(before)) break;
+      const bool is_first = round_ == 1 && !is_adapted_; // it may have to make a lattice worse
+      if (!is_improving(before) && !is_first) break;
       before = current();
     }
   }
@@ -425,6 +426,7 @@ private:
   static constexpr int least_steps_of_fit = 4, max_steps_of_fit = 16;
   static constexpr double min_fitted_quality = 0.5;
   static constexpr double adapted_share = 0.95;          // of the edges in range
+  static constexpr double least_adapted_quality = is_anisotropic ? 0 : 0.9; // in the mean; lattices have .866
   static constexpr double expected_share = 0.8;          // of the edges in range in the end: less is not usual
   static constexpr double expected_excess = 1.3;         // of a deviation over what was asked for, the same
   static constexpr double least_gain = 0.0015;           // in the share of edges in range or in mean quality

@@ -6,37 +6,16 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_EDGE_MIDDLE_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_EDGE_MIDDLE_H
 
+#include <CGAL/Surface_mesh_adaptation/kernels/lattice.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/surface/sector_location.h>
-#include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 namespace internal {
-
-/// In which ratio the edge of `h`, from `a` to `b`, is split: in halves, but for the diagonals of a lattice of
-/// right-angled faces. Halves would make a finer lattice, whose edges conform to the metric, and which is in balance
-/// for moves and swaps, though the quality of its faces is .866. An uneven start lets these find better ones.
-template <class Surface>
-double split_position(const Surface& surface, Index a, Index b, Index h)
-{
-  constexpr double max_skew = 0.1;         // of a parallelogram, in lengths of the diagonal
-  constexpr double lattice_quality = 0.87; // of a right-angled face: .866
-  constexpr double max_shift = 0.2;        // of a split, in lengths of the edge
-  const Mesh_view& mesh = surface.mesh;
-  const auto& points = surface.points;
-  const Index p = mesh.source(h), q = mesh.target(h), c = mesh.apex(h), d = mesh.apex(mesh.twin[h]);
-  const Vector_3 skew = points[c] + points[d] - points[a] - points[b];
-  if (skew.squaredNorm() > max_skew * max_skew * (points[b] - points[a]).squaredNorm() ||
-      (surface.has_quality(p, q, c, lattice_quality) && surface.has_quality(q, p, d, lattice_quality)))
-    return 0.5;
-  const double random = double(hash_of_id(std::uint64_t(a) << 32 | b) >> 11) * 0x1p-53; // in [0, 1)
-  return 0.5 + max_shift * (2 * random - 1);
-}
 
 /// The point next to the middle of the edge of `h`, found by a walk from its ends or the vertices beside it, first from
 /// those that are on no feature; from others within the sector of the edge. Where a walk ends at a feature that lies in
