@@ -49,7 +49,8 @@ struct Uniform_metric_field
 struct Curvature_metric_field
 {
   double relative_tolerance;   ///< as a fraction of the diagonal of the bounding box; not used with `vertices`
-  double hmin = 0;             ///< smallest size; 0: the tolerance itself, with a number of vertices 1e-6 diagonals
+  double hmin = 0;             ///< smallest size; 0: the tolerance itself, with a number of vertices four times that
+                               ///< which these come to
   double hmax = 0;             ///< largest size; 0: a tenth of the diagonal, with a number of vertices the diagonal
   bool anisotropic = false;    ///< keep the directions; else the smaller of the two sizes counts in all
   double gradation = 0;        ///< largest ratio of the sizes at two points one size apart, 1: no bound;

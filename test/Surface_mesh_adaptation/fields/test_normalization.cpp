@@ -172,6 +172,24 @@ TEST(Normalization, of_nothing_is_uniform)
   EXPECT_THROW(SMA::Size_bounds(0.2, 0.1), SMA::Invalid_parameter_error);
 }
 
+// Noise asks for sizes without bound; what is left for it is a size that falls with the scale.
+TEST(Normalization, keeps_sizes_above_the_least_one_of_the_scale)
+{
+  const Soup soup = shapes::sphere(4);
+  const Reference r = reference(soup);
+  const double noise = 1e12, least_size = 0.5;
+  Tensors tensors(soup.points.size(), Metric_tensor_3::isotropic(1));
+  for (std::size_t v = 0; v < tensors.size(); v += 50) tensors[v] = noise * tensors[v];
+  for (const double n : {1000.0, 10000.0}) {
+    const SMA::Scalable_metric metric{tensors, SMA::Size_bounds(1e-6, 1), 1, {}, least_size};
+    const auto sizes = SMA::normalize_to_vertex_count<double>(sequential, r.mesh, r.points, r.normals, metric, n);
+    const double scale = 1 / (sizes[1] * sizes[1]); // where there is no noise
+    for (std::size_t v = 0; v < sizes.size(); ++v)
+      EXPECT_NEAR(sizes[v], v % 50 == 0 ? least_size / scale : sizes[1], 1e-9);
+    EXPECT_LT(sizes[0], sizes[1]);
+  }
+}
+
 // Gradation
 
 /// Small sizes across a wavy line, large ones elsewhere: shocks of `ratio`.

@@ -159,6 +159,10 @@ inline double largest_size(const Curvature_metric_field& field, double diagonal)
   return field.hmax > 0 ? field.hmax : 0.1 * diagonal;
 }
 
+/// An edge over a bend of less than 45 degrees, which is no ridge, leaves it by a fifth of its length. Where a number of
+/// vertices is given, smaller sizes than four deviations would go into noise.
+constexpr double least_size_in_deviations = 4;
+
 inline double gradation(const Curvature_metric_field& field)
 {
   if (field.gradation > 0) return field.gradation;
@@ -208,6 +212,7 @@ void with_vertex_metric(const Execution& execution, const Curvature_metric_field
   if (!deviations.empty()) scale_to_deviations(execution, reference.mesh, tolerance, deviations, metric.tensors);
   if (wants_proximity(field)) metric.fixed = proximity_tensors(execution, reference, bounds);
   const double scale = 1 / (6 * tolerance);
+  if (field.vertices > 0 && !(field.hmin > 0)) metric.least_size = least_size_in_deviations * tolerance * scale;
   if (field.anisotropic) use_scaled<Metric_tensor_3>(execution, reference, metric, field.vertices, scale, use);
   else use_scaled<double>(execution, reference, metric, field.vertices, scale, use);
 }

@@ -163,6 +163,13 @@ struct Scalable_metric
   Size_bounds bounds;  ///< of the sizes
   double gradation = default_gradation;  ///< at most 1: off
   std::vector<Metric_tensor_3> fixed = {}; ///< at any scale, as `tensors`, or empty: counts for tensors, not for sizes
+  double least_size = 0; ///< times 1 / d: a smallest size that falls as the metric gets finer
+
+  /// Those of the sizes at the scale `d`.
+  Size_bounds bounds_at(double d) const
+  {
+    return Size_bounds((std::min)((std::max)(bounds.hmin, least_size / d), bounds.hmax), bounds.hmax);
+  }
 };
 
 namespace internal {
@@ -172,8 +179,9 @@ template <class Execution>
 void scale(const Execution& execution, const Scalable_metric& m, double d, std::vector<double>& sizes)
 {
   sizes.resize(m.tensors.size());
+  const Size_bounds bounds = m.bounds_at(d);
   for_each_index(execution, sizes.size(), [&](std::size_t v) {
-    sizes[v] = 1 / std::sqrt(m.bounds.clamped(d * m.tensors[v][0]));
+    sizes[v] = 1 / std::sqrt(bounds.clamped(d * m.tensors[v][0]));
   });
 }
 
@@ -181,9 +189,10 @@ template <class Execution>
 void scale(const Execution& execution, const Scalable_metric& m, double d, std::vector<Metric_tensor_3>& tensors)
 {
   tensors.resize(m.tensors.size());
+  const Size_bounds bounds = m.bounds_at(d);
   for_each_index(execution, tensors.size(), [&](std::size_t v) {
     const Eigen_decomposition_3 e = eigen_decomposition(m.tensors[v]);
-    tensors[v] = metric_tensor(e.values.unaryExpr([&](double l) { return m.bounds.clamped(d * l); }), e.vectors);
+    tensors[v] = metric_tensor(e.values.unaryExpr([&](double l) { return bounds.clamped(d * l); }), e.vectors);
   });
 }
 
