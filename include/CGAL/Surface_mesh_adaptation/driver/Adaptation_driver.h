@@ -56,7 +56,9 @@ public:
     const Metric_aims& aims = surface_.background().aims();
     const auto start = std::chrono::steady_clock::now();
     report_.initial = mesh_statistics(execution_, surface_);
-    is_adapted_ = report_.initial.in_range > adapted_share && report_.initial.mean_quality > least_adapted_quality;
+    const bool conforms = report_.initial.in_range > adapted_share;
+    is_adapted_ = conforms && report_.initial.mean_quality > least_adapted_quality;
+    is_lattice_ = conforms && !is_adapted_;
     relocation_.expect_adapted(is_adapted_);
     find_work();
     do_rounds(rounds, report_.initial);
@@ -276,8 +278,8 @@ private:
       visitor_.round_done(round_, current());
       ++round_;
       ++report_.rounds;
-      const bool is_first = round_ == 1 && !is_adapted_; // it may have to make a lattice worse
-      if (!is_improving(before) && !is_first) break;
+      const bool may_be_worse = is_lattice_ && round_ == 1; // on the way out of a balance
+      if (!is_improving(before) && !may_be_worse) break;
       before = current();
     }
   }
@@ -443,6 +445,7 @@ private:
   std::size_t round_ = 0;
   std::size_t extent_ = 0;   // number of vertices of the part that is worked on; 0: all
   bool is_adapted_ = false;  // from the beginning
+  bool is_lattice_ = false;  // conforming, but of bad faces
   bool is_restored_ = false; // to an earlier state, behind the last round
   bool is_parted_ = false;   // by finer sizes where faces met
   bool is_irregular_ = true; // so much that it is worth to go on with regularization
