@@ -129,6 +129,7 @@ struct Variant
   bool is_rotated = false;
   Vector_3 shift{0, 0, 0};
   bool is_single = false;  ///< single precision
+  double more_rms = 1;     ///< times what the rms distance may be
 };
 
 /// A part as a file has it, and the way back.
@@ -608,7 +609,7 @@ std::vector<Variant> variants()
   const Vector_3 none(0, 0, 0), far(500000, 5400000, 300);
   return {{"as it is", 0, false, false, none, false},    {"vertices on borders", 0.3, false, false, none, false},
           {"vertices in planes", 0, true, true, none, false}, {"far away", 0.2, true, true, far, false},
-          {"many vertices", 0.5, true, false, none, false},
+          {"many vertices", 0.5, true, false, none, false, 1.125},
           {"single precision", 0, true, true, {3, 2, 1}, true}};
 }
 
@@ -632,7 +633,7 @@ void expect_errors(const Part& part, const Limits& whole, const Limits& split, c
       const Limits& limits = variant.split_edges > 0 ? split : variant.in_planes ? in_planes : whole;
       EXPECT_LE(e.flat, 20 * input.rounding);
       EXPECT_LE(e.largest, limits.largest * part.sag + 20 * input.rounding);
-      EXPECT_LE(e.rms, limits.rms * part.sag + 20 * input.rounding);
+      EXPECT_LE(e.rms, variant.more_rms * limits.rms * part.sag + 20 * input.rounding);
     }
 }
 
@@ -673,8 +674,8 @@ TEST(Cad_tessellations, of_shafts_keep_the_circles_where_a_cylinder_meets_a_cone
 
 TEST(Cad_tessellations, of_a_knob_keep_the_circles_where_its_pieces_meet)
 {
-  expect_errors(knob(30, 1), {0.5, 0.25}, {10, 0.9});
-  expect_errors(knob(90, 1), {0.5, 0.25}, {10, 0.9});
+  expect_errors(knob(30, 1), {0.5, 0.25}, {10, 0.8});
+  expect_errors(knob(90, 1), {0.5, 0.25}, {10, 0.8});
 }
 
 TEST(Cad_tessellations, of_bent_rods_round_the_flanks_too)
