@@ -293,6 +293,10 @@ private:
     };
     const auto simplify = [&](Sweep_counts& c) { return simplification_.sweep(c); };
     const auto swap = [&](Sweep_counts& c) { return swapping_.sweep(c); };
+    const auto swap_fans = [&](Sweep_counts& c) { // to the end: an apex changes only a few edges in a sweep
+      const std::size_t swapped = swapping_.sweep(c);
+      return refinement_.is_waiting() ? swapped : 0;
+    };
     const auto regularize = [&](Sweep_counts& c) { return regularization_.sweep(c); };
     const auto relocate = [&](Sweep_counts& c) { return relocation_.sweep(c); };
 
@@ -301,8 +305,9 @@ private:
     // one needle fill the surface with others.
     for (std::size_t i = 0; i < max_refine_sweeps; ++i) {
       const std::size_t collapsed = run_kernel("simplify", i == 0 ? max_simplify_sweeps : 1, simplify);
-      run_kernel("swap", 1, swap);
+      run_kernel("swap", max_sweeps_on_fans, swap_fans);
       split = run_kernel("refine", 1, refine);
+      if (refinement_.is_waiting() && split > 0) continue;
       // nor go on where what is split is what has been collapsed
       if (split <= negligible(refine_share) || (is_anisotropic && i > 0 && split <= collapsed)) break;
     }
@@ -407,6 +412,7 @@ private:
   static constexpr std::size_t max_refine_sweeps = 24;   // each halves the edges
   static constexpr std::size_t max_simplify_sweeps = 12;
   static constexpr std::size_t max_swap_sweeps = 4;
+  static constexpr std::size_t max_sweeps_on_fans = 200; // of swaps: what is swapped then need not be split
   static constexpr std::size_t max_regularize_sweeps = 3;
   static constexpr std::size_t max_relocate_sweeps = 2;
   static constexpr double negligible_share = 0.004;

@@ -61,15 +61,21 @@ public:
             spare_.curve, spare_.outgoing, spare_.label);
   }
 
-  /// Splits every edge that is too long, once, if there are more than `negligible`. Returns the number of edges split.
+  /// Splits every edge that is too long, once, if there are more than `negligible`, but on needles only once those of
+  /// curves are short enough: swaps remove fans then. Returns the number of edges split.
   std::size_t sweep(std::size_t negligible, Sweep_counts& counts)
   {
     counts.candidates += mesh_.number_of_halfedges() / 2;
     mark();
-    if (is_anisotropic<Metric> && thresholds_.weigh_neighbors) unmark_fitting_edges();
+    is_waiting_ = is_curve_marked() && unmark_needles();
     for (;;) {
       const std::size_t marked = count_marked();
-      if (marked <= negligible) return 0;
+      if (is_waiting_ && marked == 0) { // the curves cannot be split
+        is_waiting_ = false;
+        mark();
+        continue;
+      }
+      if (!is_waiting_ && marked <= negligible) return 0;
       const Restructuring plan(execution_, mesh_, codes_);
       if ((is_at_limit_ = is_beyond_limit(plan))) return 0;
       if (expected_vertices_ == 0) expected_vertices_ = expected_number_of_vertices();
@@ -87,6 +93,9 @@ public:
   /// Whether the last sweep left all as it was, since the mesh would have had far more vertices than the metric asks for, or
   /// than are possible.
   bool is_at_limit() const { return is_at_limit_; }
+
+  /// Whether the last sweep left edges of needles for the next one.
+  bool is_waiting() const { return is_waiting_; }
 
   /// Closes the holes of removed elements, if there are any.
   void compact()
@@ -116,6 +125,7 @@ private:
   static constexpr double min_turn = 0.5;  // cosine between a face and its children
   static constexpr double in_plane = 0.98; // the same, of children that are as upright as the face
   static constexpr double max_length_to_keep = 3; // of an edge that fits better than its parts: not worth a look beyond
+  static constexpr double quality_of_needle = 0.1;
   static constexpr double max_half = 0.8;  // of an edge: the middle of a bulging arc lies well within
   static constexpr double max_share_of_holes = 0.01; // that are filled in series
   static constexpr double expected_excess = 1.2;   // vertices beyond those of a mesh of equilateral unit triangles
@@ -145,6 +155,12 @@ private:
 
   void mark()
   {
+    mark_long_edges();
+    if (is_anisotropic<Metric> && thresholds_.weigh_neighbors) unmark_fitting_edges();
+  }
+
+  void mark_long_edges()
+  {
     fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
     resize_and_forget(taken_back_, codes_.size());
     for_each_face([&](Index f) {
@@ -170,6 +186,42 @@ private:
           taken_back_[f] = std::uint8_t(taken_back_[f] | 1u << i);
     }, heavy_chunk_length);
     take_back_marks();
+  }
+
+  bool is_curve_marked() const
+  {
+    return count_faces([&](Index f) {
+      for (Index i = 0; i < 3; ++i)
+        if ((codes_[f] >> i & 1) != 0 && mesh_.is_feature(3 * f + i)) return true;
+      return false;
+    }) > 0;
+  }
+
+  /// Takes back the marks of edges of needles but those on curves, if most faces to be split are needles; whether so.
+  bool unmark_needles()
+  {
+    for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
+      taken_back_[f] = 0;
+      if (codes_[f] == 0 || !is_needle(Index(f))) return;
+      for (Index i = 0; i < 3; ++i)
+        if (!mesh_.is_feature(3 * Index(f) + i)) taken_back_[f] = std::uint8_t(taken_back_[f] | (codes_[f] & 1u << i));
+    });
+    const std::size_t needles = count_faces([&](Index f) { return taken_back_[f] != 0; });
+    const bool is_fan = 2 * needles > count_faces([&](Index f) { return codes_[f] != 0; });
+    if (is_fan) take_back_marks();
+    return is_fan;
+  }
+
+  bool is_needle(Index f) const
+  {
+    return !surface_.has_quality(mesh_.corner[3 * f], mesh_.corner[3 * f + 1], mesh_.corner[3 * f + 2],
+                                 quality_of_needle);
+  }
+
+  template <class Predicate>
+  std::size_t count_faces(const Predicate& predicate) const
+  {
+    return count_if(execution_, mesh_.number_of_faces(), [&](std::size_t f) { return predicate(Index(f)); });
   }
 
   /// Unmarks the edges that one of their faces has taken back.
@@ -272,7 +324,7 @@ private:
       const bool is_good = code == 0 || (are_halves_shorter(plan, f) && are_children_upright(plan, f, code));
       taken_back_[f] = is_good ? std::uint8_t(0) : has_several_marks(code) ? all_but_longest(f) : code;
     });
-    const bool is_any = count_if(execution_, taken_back_.size(), [&](std::size_t f) { return taken_back_[f] != 0; }) > 0;
+    const bool is_any = count_faces([&](Index f) { return taken_back_[f] != 0; }) > 0;
     if (is_any) take_back_marks();
     return is_any;
   }
@@ -382,7 +434,7 @@ private:
   Refinement_thresholds thresholds_;
   std::size_t expected_vertices_ = 0; // for all sweeps
   std::optional<Limit_of_refinement> limit_; // the same
-  bool is_at_limit_ = false;
+  bool is_at_limit_ = false, is_waiting_ = false;
   Buffer<std::uint8_t> codes_, chosen_, taken_back_;
   // the other half of a double buffer: swapped with the surface by `commit`
   Mesh_view spare_;
