@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -140,6 +141,30 @@ Soup loft(std::size_t k, double height)
   return soup;
 }
 
+/// A square bar with the sides 1 along the z axis, with `n` vertices at random places on two of its long edges, across the
+/// bar from each other, joined to random ends of the edges between.
+Soup bar_with_fans(Random& random, std::size_t n, double length)
+{
+  Soup soup;
+  std::array<Polygon, 4> edges; // from the bottom to the top
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vector_3 foot(i == 1 || i == 2 ? 1 : 0, i < 2 ? 0 : 1, 0);
+    std::vector<double> heights{0, length};
+    if (i % 2 == 0)
+      for (std::size_t k = 0; k < n; ++k) heights.push_back(random.real(0.01, 0.99) * length);
+    std::sort(heights.begin(), heights.end());
+    for (const double z : heights) edges[i].push_back(add(soup, foot + z * Vector_3::UnitZ()));
+  }
+  for (const std::size_t i : {0, 2}) {
+    const Polygon &row = edges[i], &before = edges[(i + 3) % 4], &after = edges[i + 1];
+    join(random, Polygon(row.rbegin(), row.rend()), after.front(), after.back(), soup);
+    join(random, row, before.back(), before.front(), soup);
+  }
+  triangulate(random, {edges[3].front(), edges[2].front(), edges[1].front(), edges[0].front()}, 0, soup);
+  triangulate(random, {edges[0].back(), edges[1].back(), edges[2].back(), edges[3].back()}, 0, soup);
+  return soup;
+}
+
 struct Extremes
 {
   double least_height = 1e300, longest_edge = 0;
@@ -219,6 +244,24 @@ TEST(Caps, that_are_too_high_to_vanish_do_not_keep_the_edges_around_them_long)
     double share = 0;
     for (int i = 0; i < 10; ++i) share += share_of_long_faces(adapted(hinge(random, pi / 3, noise), 0.4), 0.4) / 10;
     EXPECT_LE(share, 0.001);
+  }
+}
+
+TEST(Fans, are_removed_and_not_split)
+{
+  Random random(6);
+  for (int i = 0; i < 10; ++i) {
+    SCOPED_TRACE(i);
+    auto mesh = shapes::mesh<Surface_mesh>(bar_with_fans(random, 50 + random.below(200), random.real(100, 500)));
+    const auto report = SMA::adapt_surface_mesh(sequential, mesh, SMA::Uniform_metric_field(1.0));
+    std::size_t split = 0;
+    for (const auto& kernel : report.kernels) split += kernel.kernel == "refine" ? kernel.applied : 0;
+    EXPECT_LE(split, 10 * report.final.vertices);
+    EXPECT_GE(report.final.in_range, 0.9);
+    for (const auto v : mesh.vertices()) {
+      const auto& p = mesh.point(v);
+      EXPECT_LE((std::min)({std::abs(p.x()), std::abs(p.x() - 1), std::abs(p.y()), std::abs(p.y() - 1)}), 1e-6);
+    }
   }
 }
 
