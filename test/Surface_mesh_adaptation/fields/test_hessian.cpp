@@ -12,8 +12,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 namespace {
@@ -88,6 +90,33 @@ TEST(Hessian, is_not_made_of_rounding_where_all_samples_lie_on_two_lines)
   EXPECT_FALSE(fit.solve_quadratic(f));
   fit.add({1, 1}, 0.3, 1);
   EXPECT_TRUE(fit.solve_quadratic(f));
+}
+
+TEST(Cubic_fit, finds_the_derivatives_of_cubic_polynomials_whatever_the_number_of_samples)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (std::size_t n = 14; n < 40; ++n) { // samples are added several at a time
+    std::array<double, 9> c;
+    for (double& x : c) x = any(random);
+    const auto polynomial = [&](double x, double y) {
+      return c[0] * x + c[1] * y + c[2] * x * x + c[3] * x * y + c[4] * y * y + c[5] * x * x * x + c[6] * x * x * y +
+             c[7] * x * y * y + c[8] * y * y * y;
+    };
+    SMA::internal::Cubic_fit fit;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Eigen::Vector2d x(any(random), any(random));
+      const double weight = 1.5 + any(random), other = any(random);
+      fit.add(x, polynomial(x[0], x[1]) + other, weight);
+      fit.subtract(x, other, weight);
+    }
+    SMA::internal::Derivatives_2 f;
+    ASSERT_TRUE(fit.solve_cubic(f)) << n;
+    Eigen::Matrix2d hessian;
+    hessian << 2 * c[2], c[3], c[3], 2 * c[4];
+    EXPECT_LT((f.gradient - Eigen::Vector2d(c[0], c[1])).norm(), 1e-10) << n;
+    EXPECT_LT((f.hessian - hessian).norm(), 1e-10) << n;
+  }
 }
 
 TEST(Hessian, of_a_quadratic_field_is_exact_on_stretched_faces_of_any_direction)

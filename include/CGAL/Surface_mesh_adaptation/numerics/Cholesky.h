@@ -15,7 +15,7 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 namespace internal {
 
-/// `a = L L^T`, of which only the lower triangle is read.
+/// `a = L L^T` \pre `a` is symmetric
 /// \par Complexity
 /// O(n^3)
 template <int n>
@@ -25,18 +25,17 @@ public:
   using Matrix = Eigen::Matrix<double, n, n>;
   using Vector = Eigen::Matrix<double, n, 1>;
 
-  explicit Cholesky(const Matrix& a) : lower_(Matrix::Zero())
+  explicit Cholesky(const Matrix& a)
   {
-    for (int j = 0; j < n; ++j)
-      for (int i = j; i < n; ++i) lower_(i, j) = a(i, j);
     for (int k = 0; k < n && is_positive_definite_; ++k) {
-      is_positive_definite_ = lower_(k, k) > 0;
-      const double pivot = std::sqrt(lower_(k, k));
-      lower_(k, k) = pivot;
+      Vector column = a.col(k); // whole columns, what is above the diagonal too: loops of one length are unrolled
+      for (int j = 0; j < k; ++j)
+        for (int i = 0; i < n; ++i) column[i] -= lower_(k, j) * lower_(i, j);
+      is_positive_definite_ = column[k] > 0;
+      const double pivot = std::sqrt(column[k]);
       inverse_pivots_[k] = 1 / pivot;
-      for (int i = k + 1; i < n; ++i) lower_(i, k) *= inverse_pivots_[k];
-      for (int j = k + 1; j < n; ++j)
-        for (int i = j; i < n; ++i) lower_(i, j) -= lower_(i, k) * lower_(j, k);
+      lower_.col(k) = inverse_pivots_[k] * column;
+      lower_(k, k) = pivot;
     }
   }
 
@@ -51,7 +50,7 @@ public:
   }
 
   /// `L` \pre positive definite
-  const Matrix& lower() const { return lower_; }
+  Matrix lower() const { return lower_.template triangularView<Eigen::Lower>(); }
 
   /// `L^-1 b` \pre positive definite
   template <int m>
@@ -77,7 +76,7 @@ public:
   }
 
 private:
-  Matrix lower_;
+  Matrix lower_; ///< its lower triangle
   Vector inverse_pivots_; // quotients would wait for each other
   bool is_positive_definite_ = true;
 };

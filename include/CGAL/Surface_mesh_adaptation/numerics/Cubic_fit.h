@@ -6,10 +6,12 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_NUMERICS_CUBIC_FIT_H
 
 #include <CGAL/Surface_mesh_adaptation/numerics/Cholesky.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/Moments_2.h>
 
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
@@ -27,32 +29,26 @@ struct Derivatives_2
 };
 
 /// Gathers samples, then solves the normal equations. Their monomials are ordered by degree, so those of the quadratic
-/// fit are a block of those of the cubic one: both come from the same sums.
+/// fit are a block of those of the cubic one: both come from the same moments.
 class Cubic_fit
 {
 public:
   /// \param to_unit maps the samples to where they are of the order of 1 all around: where they are stretched in a
   ///        direction that is no axis, monomials of the coordinates themselves can hardly be told from each other
-  explicit Cubic_fit(const Eigen::Matrix2d& to_unit = Eigen::Matrix2d::Identity())
-    : to_unit_(to_unit), matrix_(Matrix::Zero()), right_hand_side_(Row::Zero())
-  {}
+  explicit Cubic_fit(const Eigen::Matrix2d& to_unit = Eigen::Matrix2d::Identity()) : to_unit_(to_unit) {}
 
   void add(const Eigen::Vector2d& x, double value, double weight)
   {
-    const Row row = monomials(to_unit_ * x);
-    for (int j = 0; j < size; ++j) {
-      const double wj = weight * row[j];
-      right_hand_side_[j] += wj * value;
-      for (int i = j; i < size; ++i) matrix_(i, j) += wj * row[i];
-    }
+    const Eigen::Vector2d p = to_unit_ * x;
+    moments_.add(p, weight);
+    moments_of_values_.add(p, weight * value);
     ++samples_;
   }
 
   /// Takes `value` from a sample that was added with the same weight.
   void subtract(const Eigen::Vector2d& x, double value, double weight)
   {
-    const Row row = monomials(to_unit_ * x);
-    for (int j = 0; j < size; ++j) right_hand_side_[j] -= weight * value * row[j];
+    moments_of_values_.add(to_unit_ * x, -weight * value);
   }
 
   std::size_t number_of_samples() const { return samples_; }
@@ -71,15 +67,11 @@ public:
       if (fit_.samples_ < least_samples || !is_well_scaled() || !factors_.is_positive_definite() ||
           !(factors_.least_pivot() > least_sine))
         return false;
-      Vector right_side, scaled;
-      for (int i = 0; i < n; ++i) {
-        right_side[i] = fit_.right_hand_side_[i];
-        scaled[i] = inverse_[i] * right_side[i];
-      }
-      Vector c = factors_.solve(scaled);
-      for (int i = 0; i < n; ++i) c[i] *= inverse_[i];
+      const auto moments = fit_.moments_of_values_.sums(); // ordered like the monomials
+      const Vector right_side = Eigen::Map<const Vector>(moments.data());
+      const Vector c = inverse_.cwiseProduct(factors_.solve(inverse_.cwiseProduct(right_side)));
       Eigen::Matrix2d hessian;
-      hessian << c[2], c[3], c[3], c[4];
+      hessian << 2 * c[2], c[3], c[3], 2 * c[4];
       const Eigen::Matrix2d back = fit_.to_unit_.transpose();
       result.gradient = back * Eigen::Vector2d(c[0], c[1]);
       result.hessian = back * hessian * fit_.to_unit_;
@@ -90,18 +82,20 @@ public:
 
   private:
     using Vector = Eigen::Matrix<double, n, 1>;
+    using Matrix = Eigen::Matrix<double, n, n>;
     static constexpr std::size_t least_samples = n == 9 ? 14 : 6;
 
     /// The normal equations for columns of length 1, with the lengths that they have.
-    Eigen::Matrix<double, n, n> scaled_matrix()
+    Matrix scaled_matrix()
     {
-      Eigen::Matrix<double, n, n> a = Eigen::Matrix<double, n, n>::Zero();
-      for (int i = 0; i < n; ++i) {
-        scale_[i] = std::sqrt(fit_.matrix_(i, i));
-        inverse_[i] = 1 / scale_[i];
-        for (int j = 0; j <= i; ++j) a(i, j) = inverse_[i] * fit_.matrix_(i, j) * inverse_[j];
-      }
-      return a;
+      Matrix a;
+      const auto moments = fit_.moments_.sums();
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          a(i, j) = moments[Moments::index(power_of_x[i] + power_of_x[j], power_of_y[i] + power_of_y[j])];
+      scale_ = a.diagonal().cwiseSqrt();
+      inverse_ = scale_.cwiseInverse();
+      return inverse_.asDiagonal() * a * inverse_.asDiagonal();
     }
 
     bool is_well_scaled() const
@@ -119,17 +113,8 @@ public:
   bool solve_quadratic(Derivatives_2& result) const { return Solver<5>(*this).solve(result); }
 
 private:
-  static constexpr int size = 9;
-  using Matrix = Eigen::Matrix<double, size, size>;
-  using Row = Eigen::Matrix<double, size, 1>;
-
-  static Row monomials(const Eigen::Vector2d& p)
-  {
-    const double x = p[0], y = p[1];
-    Row row;
-    row << x, y, x * x / 2, x * y, y * y / 2, x * x * x, x * x * y, x * y * y, y * y * y;
-    return row;
-  }
+  using Moments = Moments_2<2, 6>; // products of two monomials
+  static constexpr std::array<int, 9> power_of_x{1, 0, 2, 1, 0, 3, 2, 1, 0}, power_of_y{0, 1, 0, 1, 2, 0, 1, 2, 3};
 
   /// The least sine of the angle between a column of the problem and the span of those before it.
   static constexpr double least_sine = 3.2e-3;
@@ -137,8 +122,8 @@ private:
   static constexpr double least_column = 1e-6;
 
   Eigen::Matrix2d to_unit_;
-  Matrix matrix_; // its lower triangle
-  Row right_hand_side_;
+  Moments moments_;
+  Moments_2<1, 3> moments_of_values_;
   std::size_t samples_ = 0;
 };
 

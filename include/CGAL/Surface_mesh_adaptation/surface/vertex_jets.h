@@ -199,7 +199,7 @@ inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& po
   const double radius = mean_distance(neighbors, points, frame.origin);
   if (!(radius > 0) || !std::isfinite(1 / radius)) return Fit_degree::none;
   const Samples_over_plane samples = samples_over_plane(neighbors, points, frame, radius, kind);
-  Cubic_fit fit = fit_of(samples, [](const Sample_over_plane& s) { return s.height; });
+  const auto height = [](const Sample_over_plane& s) { return s.height; };
   constexpr double largest_squared_slope = 1.0 / 3; // tan(30 degrees)^2
   Derivatives_2 f;
   // second derivatives that the rounding of the coordinates explains are none
@@ -214,15 +214,19 @@ inline Fit_degree fit_jet(const Mesh_view& mesh, const std::vector<Vector_3>& po
     return true;
   };
   if (kind == Jet_fit::exact) {
+    Cubic_fit fit = fit_of(samples, height);
     const Cubic_fit::Solver<9> cubic(fit);
-    if (accept(cubic.solve(f))) {
-      if (f.hessian.lpNorm<Eigen::Infinity>() > largest_bend) return Fit_degree::cubic;
-      subtract_fourth_order(fit, samples, f.hessian);
-      accept(cubic.solve(f));
-      return Fit_degree::cubic;
+    if (cubic.solve(f)) {
+      const Derivatives_2 without_fourth_order = f;
+      if (f.hessian.lpNorm<Eigen::Infinity>() <= largest_bend) {
+        subtract_fourth_order(fit, samples, f.hessian);
+        if (accept(cubic.solve(f))) return Fit_degree::cubic;
+        f = without_fourth_order;
+      }
+      if (accept(true)) return Fit_degree::cubic;
     }
   }
-  return accept(fit.solve_quadratic(f)) ? Fit_degree::quadratic : Fit_degree::none;
+  return accept(fit_of(samples, height).solve_quadratic(f)) ? Fit_degree::quadratic : Fit_degree::none;
 }
 
 /// The shape operator of a face as a tensor of space: the symmetric map that takes, in the sense of least squares,
