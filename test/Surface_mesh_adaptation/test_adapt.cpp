@@ -532,6 +532,20 @@ double largest_error(const Mesh& mesh, const Off& off)
   return largest;
 }
 
+TEST(Adapt, puts_vertices_on_the_patches_where_it_coarsens)
+{
+  // the middles of the facets are off the sphere by 8e-4, and so are vertices that are left there
+  const Soup sphere = shapes::sphere(4, 0.2);
+  for (const std::size_t rounds : {1, 2, 10}) {
+    Mesh mesh = shapes::mesh<Mesh>(sphere);
+    const auto report = SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(2 * sphere.mean_edge_length()),
+                                                SMA::parameters::number_of_iterations(rounds));
+    EXPECT_LE(report.rounds, rounds);
+    EXPECT_LT(report.final.vertices, sphere.points.size() / 3);
+    EXPECT_LT(largest_error(mesh, [](const Vector_3& p) { return p.norm() - 1; }), 1e-5) << rounds;
+  }
+}
+
 /// Refines and coarsens again and again: each run takes the mesh that the last one left for the surface. Returns the
 /// largest error after the first and after the tenth cycle.
 template <class Off>

@@ -61,6 +61,7 @@ public:
     is_lattice_ = conforms && !is_adapted_;
     relocation_.expect_adapted(is_adapted_);
     find_work();
+    surface_.is_on_facets = may_be_on_facets();
     do_rounds(rounds, report_.initial);
     if (aims.number_of_vertices > 0) meet_number(aims.number_of_vertices);
     refinement_.compact();
@@ -270,8 +271,10 @@ private:
   void do_rounds(std::size_t rounds, Mesh_statistics before)
   {
     is_irregular_ = true;
+    bool is_last = false;
     for (std::size_t i = 0; i < rounds && !report_.stopped; ++i) {
       visitor_.round_begins(round_, round_ + rounds - i);
+      if (surface_.is_on_facets && (is_last || i + 1 == rounds)) leave_facets();
       do_round();
       relocation_.expect_adapted(false);
       report_.after_round.push_back(mesh_statistics(execution_, surface_));
@@ -279,9 +282,24 @@ private:
       ++round_;
       ++report_.rounds;
       const bool may_be_worse = is_lattice_ && round_ == 1; // on the way out of a balance
-      if (!is_improving(before) && !may_be_worse) break;
+      is_last = !is_improving(before) && !may_be_worse;
+      if (is_last && !surface_.is_on_facets) break;
       before = current();
     }
+    surface_.is_on_facets = false;
+  }
+
+  /// Whether much of the mesh is far too fine, and nothing keeps vertices from the patches meanwhile.
+  bool may_be_on_facets() const
+  {
+    bool is_guarded = bool(surface_.tolerance);
+    if constexpr (Surface::avoids_intersections) is_guarded = is_guarded || surface_.intersections != nullptr;
+    return !is_guarded && report_.initial.mean_length < min_unit_length;
+  }
+
+  void leave_facets()
+  {
+    run_kernel("relocate", 1, [&](Sweep_counts& c) { return relocation_.leave_facets(c); });
   }
 
   void do_round()

@@ -58,6 +58,8 @@ public:
   Buffer<std::uint8_t> active;  ///< a bit for each kernel that has to look at the vertex
   std::optional<Tolerance_guard<Reference>> tolerance; ///< if there is one
   internal::Self_intersection_guard* intersections = nullptr; ///< what keeps the mesh from them, if anything
+  bool is_on_facets = false; ///< whether vertices on faces of the input that are smaller than the metric asks for are put
+                             ///< on these, not on patches: cheap, and most moves are not the last ones
   std::size_t max_number_of_vertices = largest_number_of_vertices(std::size_t(-1)); ///< beyond which it is not refined
 
   /// `asked`, a tolerance, may be null; all must live as long as the surface.
@@ -82,7 +84,14 @@ public:
   const Reference& reference() const { return *reference_; }
   const Background& background() const { return *background_; }
 
-  Placed_vertex<Metric> place(const Location& l) const { return place(l, reference_->evaluate(l)); }
+  Placed_vertex<Metric> place(const Location& l) const
+  {
+    if (is_on_facets && l.kind == Vertex_class::smooth) {
+      const Placed_vertex<Metric> p = place(l, reference_->flat_surface_point(l));
+      if (is_small_face(l.cell, p.metric)) return p;
+    }
+    return place(l, reference_->evaluate(l));
+  }
 
   /// The same for the point `p` of the surface at `l`.
   Placed_vertex<Metric> place(const Location& l, const Surface_point& p) const
@@ -231,6 +240,17 @@ public:
     active.resize(n);
   }
 
+  /// Whether the face `f` of the input is smaller than the metric `m` asks for.
+  bool is_small_face(Index f, const Metric& m) const
+  {
+    const std::size_t h = 3 * std::size_t(f);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = reference_->mesh.corner[h + i], b = reference_->mesh.corner[h + (i + 1) % 3];
+      if (!(m.length(reference_->points[b] - reference_->points[a]) < longest_edge_of_small_faces)) return false;
+    }
+    return true;
+  }
+
 private:
   /// How far the mesh may be away from the input at `l`, without jumps from face to face.
   double largest_distance(const Location& l) const
@@ -244,6 +264,7 @@ private:
   }
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr double longest_edge_of_small_faces = 0.8; // in the metric
   static constexpr double share_of_bulge = 0.25; // of the distance: the rest is for the faces between the points
 
   Surface_point surface_point(Index v) const { return {points[v], normals[v]}; }

@@ -49,8 +49,36 @@ public:
   /// Examines every active vertex once. Returns the number of vertices moved.
   std::size_t sweep(Sweep_counts& counts)
   {
-    Sweep_counts local;
     relaxation_ = relaxation_ == over_relaxation ? plain_relaxation : over_relaxation;
+    return visit_vertices(
+      [&](Index v) {
+        return surface_.vertex_class(v) != Vertex_class::corner && is_active(surface_, v, Activity::relocate);
+      },
+      [&](auto& attempt) { return examine(attempt); }, counts);
+  }
+
+  /// Moves the vertices that are still on facets to the patches above. Returns the number of vertices moved.
+  std::size_t leave_facets(Sweep_counts& counts)
+  {
+    surface_.is_on_facets = false;
+    return visit_vertices(
+      [&](Index v) {
+        return surface_.vertex_class(v) == Vertex_class::smooth &&
+               surface_.is_small_face(surface_.locations[v].cell, surface_.metrics[v]);
+      },
+      [&](auto& attempt) {
+        const auto moved = surface_.place(surface_.locations[attempt.vertex]);
+        return attempt.is_acceptable(moved) && attempt.apply(moved);
+      },
+      counts);
+  }
+
+private:
+  /// Calls `examine(attempt)`, which says whether it moved the vertex, for all that `is_candidate`.
+  template <class IsCandidate, class Examine>
+  std::size_t visit_vertices(const IsCandidate& is_candidate, const Examine& examine, Sweep_counts& counts)
+  {
+    Sweep_counts local;
     const auto visit = [&](Index v, const auto& stands_still, Sweep_counts& c, std::vector<Index>& late) {
       Relocation_attempt attempt(surface_, v, thresholds_, min_move_, stands_still);
       ++c.candidates;
@@ -60,9 +88,7 @@ public:
     const std::vector<Index> deferred = sweep_blocks(
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
-        if (mesh_.is_removed_vertex(v) || surface_.vertex_class(v) == Vertex_class::corner ||
-            !is_active(surface_, v, Activity::relocate))
-          return;
+        if (mesh_.is_removed_vertex(v) || !is_candidate(v)) return;
         if (!contains_ring(block, mesh_, v)) return list.push_back(v);
         visit(v, [&](Index w) { return block.contains(w); }, c, list); // or has had its turn
       });
@@ -75,7 +101,6 @@ public:
     return local.applied;
   }
 
-private:
   template <class Attempt>
   bool examine(Attempt& attempt)
   {
