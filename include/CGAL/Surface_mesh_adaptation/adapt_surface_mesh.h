@@ -317,8 +317,8 @@ step at the end: if anything throws, it is as it was.
 
 \throws Invalid_input_error one of those derived from it, if the mesh, the metric or a map is not as above;
         `Empty_mesh_error`; `Invalid_parameter_error`; `Mesh_too_large_error`; `Tolerance_error` if the tolerance could not
-        be kept; `Self_intersection_error` if faces that meet could not be avoided. All derive from `Adaptation_error`. What maps, formulas and visitors throw passes through. The mesh is as
-        it was in any case.
+        be kept; `Self_intersection_error` if faces that meet could not be avoided. All derive from `Adaptation_error`.
+        What maps, formulas and visitors throw passes through. The mesh is as it was in any case.
 \par Complexity
 O(n log n) time, O(n) memory, for n the larger of the numbers of input and output vertices
 */

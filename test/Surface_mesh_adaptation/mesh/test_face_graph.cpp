@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Reading and writing face graphs.
+// Reading and writing face graphs, and the order of their vertices.
 
 #include "checks.h"
 #include "mesh/views.h"
 #include "shape_meshes.h"
 
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 
 #include <CGAL/Polyhedron_3.h>
 #include <CGAL/Simple_cartesian.h>
@@ -16,6 +17,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -115,6 +120,27 @@ TEST(Face_graph_with_garbage, is_read_without_it)
   EXPECT_EQ(imported.mesh.number_of_vertices(), mesh.number_of_vertices());
   EXPECT_EQ(imported.mesh.number_of_faces(), mesh.number_of_faces());
   EXPECT_EQ(checks::topology(imported.mesh).euler_characteristic, 2);
+}
+
+TEST(Hilbert_key, leads_through_all_cells_each_next_to_the_last_one)
+{
+  using Cell = std::array<int, 3>;
+  for (const int shift : {18, 0}) { // the cells of the largest and of the smallest eighths of eighths of eighths
+    std::vector<std::pair<std::uint64_t, Cell>> cells;
+    for (int x = 0; x < 8; ++x)
+      for (int y = 0; y < 8; ++y)
+        for (int z = 0; z < 8; ++z) {
+          const auto at = [=](int i) { return std::uint32_t(i) << shift; };
+          cells.push_back({SMA::internal::hilbert_key({at(x), at(y), at(z)}) >> (3 * shift), Cell{x, y, z}});
+        }
+    std::sort(cells.begin(), cells.end());
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      ASSERT_EQ(cells[i].first, i);
+      if (i == 0) continue;
+      const Cell &a = cells[i - 1].second, &b = cells[i].second;
+      EXPECT_EQ(std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]), 1);
+    }
+  }
 }
 
 } // namespace

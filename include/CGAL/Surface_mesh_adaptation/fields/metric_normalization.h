@@ -310,8 +310,9 @@ std::vector<Value> metric_at_scale(const Execution& execution, const Mesh_view& 
 }
 
 /// The metric of the scale at which a mesh with unit edges has `number_of_vertices`, to within one percent, if the
-/// bounds allow it: else as near as they do. Where a tensor is zero the size is the largest one elsewhere. The bounds and the gradation hold in the result, for the scale is solved
-/// for with both: first with the bounds alone, whose number of vertices is cheap to find, then with the gradation.
+/// bounds allow it: else as near as they do. Where a tensor is zero the size is the largest one elsewhere. The bounds and
+/// the gradation hold in the result, for the scale is solved for with both: first with the bounds alone, whose number of
+/// vertices is cheap to find, then with the gradation.
 /// (Where tensors with different directions meet, the gradation may ask for sizes a little below `hmin`.)
 /// \par Complexity
 /// O(n) for each of about five to ten evaluations, and three to four gradations

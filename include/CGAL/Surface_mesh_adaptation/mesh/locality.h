@@ -21,31 +21,34 @@ namespace internal {
 
 constexpr int hilbert_bits = 21; // three coordinates in one 64-bit key
 
-/// Position of a cell of a grid with `2^hilbert_bits` cells a side along the Hilbert curve (Skilling 2004).
+/// The lower 21 bits of `x`, two zeros between each and the next.
+inline std::uint64_t spread_bits(std::uint64_t x)
+{
+  x = (x | x << 32) & 0x001f00000000ffff;
+  x = (x | x << 16) & 0x001f0000ff0000ff;
+  x = (x | x << 8) & 0x100f00f00f00f00f;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  return (x | x << 2) & 0x1249249249249249;
+}
+
+/// Position of a cell of a grid with `2^hilbert_bits` cells a side along the Hilbert curve (Skilling 2004). Without
+/// branches, for nobody can foresee them.
 inline std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x)
 {
-  const std::uint32_t top = 1u << (hilbert_bits - 1);
-  for (std::uint32_t q = top; q > 1; q >>= 1) {
-    const std::uint32_t p = q - 1;
+  for (int bit = hilbert_bits - 1; bit > 0; --bit) {
+    const std::uint32_t below = (1u << bit) - 1;
     for (std::uint32_t& xi : x) {
-      if (xi & q) x[0] ^= p;
-      else {
-        const std::uint32_t t = (x[0] ^ xi) & p;
-        x[0] ^= t;
-        xi ^= t;
-      }
+      const std::uint32_t if_set = 0u - (xi >> bit & 1u); // all bits or none
+      const std::uint32_t exchanged = (x[0] ^ xi) & below & ~if_set;
+      x[0] ^= exchanged | (below & if_set);
+      xi ^= exchanged;
     }
   }
   x[1] ^= x[0];
   x[2] ^= x[1];
-  std::uint32_t t = 0;
-  for (std::uint32_t q = top; q > 1; q >>= 1)
-    if (x[2] & q) t ^= q - 1;
-  for (std::uint32_t& xi : x) xi ^= t;
-  std::uint64_t key = 0;
-  for (int bit = hilbert_bits - 1; bit >= 0; --bit)
-    for (const std::uint32_t xi : x) key = (key << 1) | (xi >> bit & 1u);
-  return key;
+  std::uint32_t parity = x[2] >> 1; // of all bits from there on
+  for (const int shift : {1, 2, 4, 8, 16}) parity ^= parity >> shift;
+  return spread_bits(x[0] ^ parity) << 2 | spread_bits(x[1] ^ parity) << 1 | spread_bits(x[2] ^ parity);
 }
 
 /// The numbers `0 .. n - 1` sorted by key, ties by number. Blocks are sorted in parallel, then merged pairwise.
