@@ -11,11 +11,13 @@
 #include <CGAL/Iterator_range.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/graph_traits_HalfedgeDS.h>
 
 #include <boost/graph/graph_traits.hpp>
 #include <boost/iterator/transform_iterator.hpp>
 #include <boost/property_map/property_map.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -117,6 +119,18 @@ private:
   Mesh mesh_;
 };
 
+/// What a `Map` stores in place of a key.
+template <class Key>
+Key stored_key(const Key& k) { return k; }
+
+/// The first of the two halfedges: keys stay in the map when their edges are removed, and edges of CGAL's halfedge data
+/// structures are compared through their halfedges, whose memory may be that of others by then.
+template <class Halfedge>
+Halfedge stored_key(const CGAL::internal::HDS_edge<Halfedge>& e)
+{
+  return (std::min)(e.halfedge(), e.halfedge()->opposite());
+}
+
 /// Values that can be read and written by `get` and `put` alone; copies share them.
 template <class Key, class Value, class Category = boost::read_write_property_map_tag>
 class Map
@@ -127,11 +141,12 @@ public:
   using reference = Value;
   using category = Category;
 
-  friend Value get(const Map& map, const Key& k) { return (*map.values_)[k]; }
-  friend void put(const Map& map, const Key& k, const Value& v) { (*map.values_)[k] = v; }
+  friend Value get(const Map& map, const Key& k) { return (*map.values_)[stored_key(k)]; }
+  friend void put(const Map& map, const Key& k, const Value& v) { (*map.values_)[stored_key(k)] = v; }
 
 private:
-  std::shared_ptr<std::map<Key, Value>> values_ = std::make_shared<std::map<Key, Value>>();
+  using Values = std::map<decltype(stored_key(std::declval<const Key&>())), Value>;
+  std::shared_ptr<Values> values_ = std::make_shared<Values>();
 };
 
 /// A `ReadablePropertyMap` with the same value everywhere.
