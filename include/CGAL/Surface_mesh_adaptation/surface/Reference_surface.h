@@ -157,10 +157,9 @@ public:
            i.weights[2] * points[i.vertices[2]];
   }
 
-  /// That point, with the normals of Max in between.
+  /// That point with the normal between those of Max at the corners. \pre `l.kind` is smooth
   Surface_point flat_surface_point(const Location& l) const
   {
-    if (l.kind != Vertex_class::smooth) return {flat_point(l), Vector_3::Zero()};
     const Index h = 3 * l.cell;
     const Vector_3 n = (1 - l.u - l.v) * normals.at(h) + l.u * normals.at(h + 1) + l.v * normals.at(h + 2);
     return {flat_point(l), n.normalized()};
