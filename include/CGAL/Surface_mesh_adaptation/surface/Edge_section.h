@@ -41,6 +41,24 @@ public:
   template <class End>
   bool turns_again(Index side, double part, double distance, const End& is_end) const
   {
+    return next_turn(side, part, distance, is_end) > part * std::abs(turn_);
+  }
+
+  /// The same of a turn either way.
+  template <class End>
+  bool turns_at_all(Index side, double part, double distance, const End& is_end) const
+  {
+    return std::abs(next_turn(side, part, distance, is_end)) > part * std::abs(turn_);
+  }
+
+private:
+  static constexpr int most_faces = 64;
+
+  /// The last turn that is looked at, positive if it is the same way: the first by more than `part` of that at the edge,
+  /// either way, if there is one.
+  template <class End>
+  double next_turn(Index side, double part, double distance, const End& is_end) const
+  {
     const double sign = (turn_ > 0) == (side == h_) ? 1 : -1;
     double walked = 0, turn = 0;
     walk(side, [&](Index g, double step) {
@@ -50,11 +68,8 @@ public:
       turn = sign * turn_between(normal(g), normal(mesh_.twin[g]));
       return std::abs(turn) <= part * std::abs(turn_);
     });
-    return turn > part * std::abs(turn_);
+    return turn;
   }
-
-private:
-  static constexpr int most_faces = 64;
 
   /// Calls `step(g, length)` for the halfedges where the line leaves a face, from that of `side` on, until it returns
   /// `false`.

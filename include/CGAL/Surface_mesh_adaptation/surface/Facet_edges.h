@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/surface/Edge_section.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -39,21 +40,19 @@ public:
     const double turn = angle_between(f.normal, g.normal);
     if (f.is_plane && g.is_plane) return turn > least_turn_between_planes;
     const Facet& curved = f.is_plane ? g : f;
-    return curved.faces > 1 && curved.turn > 0 && turn > curved.turn + least_turn_beside_rows;
+    if (curved.faces == 1) return turn > usual_turn_of_triangles && !turns_more_behind(f.is_plane ? mesh_.twin[h] : h);
+    return curved.turn > 0 && turn > curved.turn + least_turn_beside_rows;
   }
 
   /// Whether the surface turns at `h` and next to it on neither side again alike: from one row of strips to another
-  /// one, say. Triangles alone turn as they happen to.
+  /// one, say.
   bool is_single_turn(Index h) const
   {
+    if (are_one(h)) return false;
     const Index t = mesh_.twin[h];
-    if (are_one(h) || facet(h).faces + facet(t).faces < 3) return false;
     const Edge_section section(mesh_, points_, facets_, h);
-    const double length2 = (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm();
-    const bool is_across = section.length() * section.length() > length2;
-    if (!(section.turn() > (is_across ? least_turn_across_strips : least_turn_along_strips))) return false;
-    return !turns_again(section, h, largest_turn_again, section.length()) &&
-           !turns_again(section, t, largest_turn_again, section.length());
+    if (!(section.turn() > least_single_turn(section, h))) return false;
+    return is_straight_beside(section, h, h) && is_straight_beside(section, h, t);
   }
 
   /// Whether a plane ends at `h` in something curved, or strips do that are straight across it.
@@ -72,6 +71,30 @@ private:
   /// what diagonals make of something smooth.
   static constexpr double least_turn_across_strips = 0.087, least_turn_along_strips = 0.174;
 
+  /// Triangles alone turn as they happen to: less than this, 15 degrees, is a single turn only if it stands out more.
+  static constexpr double usual_turn_of_triangles = 0.262;
+
+  double least_single_turn(const Edge_section& section, Index h) const
+  {
+    const double length2 = (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm();
+    const bool is_across = section.length() * section.length() > length2;
+    return is_across || are_triangles(h) ? least_turn_across_strips : least_turn_along_strips;
+  }
+
+  /// Whether the surface does not turn again on `side` of `h` as it does there: triangles neither way.
+  bool is_straight_beside(const Edge_section& section, Index h, Index side) const
+  {
+    const auto is_end = [&](Index g) { return marks_[g] != 0; };
+    if (!are_triangles(h)) return !section.turns_again(side, largest_turn_again, section.length(), is_end);
+    const double part = largest_turn_again * (std::min)(section.turn() / usual_turn_of_triangles, 1.0);
+    return !section.turns_at_all(side, part, few * section.length(), is_end);
+  }
+
+  /// Whether the facets on both sides are triangles alone: behind one of them the same strip may go on.
+  bool are_triangles(Index h) const { return facet(h).faces + facet(mesh_.twin[h]).faces < 3; }
+
+  static constexpr double few = 3; // facets
+
   /// Where a surface begins to bend it turns by half of what it does from facet to facet then: more than so many times
   /// as much, if that is more than half a degree.
   static constexpr double least_turn_after_half = 1.5, least_turn_of_facets = 0.009;
@@ -80,13 +103,19 @@ private:
   /// there on in the facet of `h`. Of a triangle alone nobody knows whether it is straight.
   bool begins_to_bend(Index h) const
   {
-    constexpr double few = 3;
     const Index t = mesh_.twin[h];
     if (facet(t).faces == 1) return false;
     const Edge_section section(mesh_, points_, facets_, h);
     return section.turn() > least_turn_of_facets &&
            turns_again(section, h, least_turn_after_half, section.length()) &&
            !turns_again(section, t, largest_turn_again, few * section.length(h));
+  }
+
+  /// Whether the surface turns in the facet of `h` and behind it by clearly more than at the edge.
+  bool turns_more_behind(Index h) const
+  {
+    const Edge_section section(mesh_, points_, facets_, h);
+    return turns_again(section, h, least_turn_after_half, few * section.length(h));
   }
 
   bool turns_again(const Edge_section& section, Index side, double part, double distance) const

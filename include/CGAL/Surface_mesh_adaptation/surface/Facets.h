@@ -167,7 +167,8 @@ public:
   }
 
 private:
-  static constexpr double least_share = 0.4; // of faces with a coplanar neighbour: scans and the like have far fewer
+  static constexpr double least_share = 0.25; // of faces with a coplanar neighbour: scans and the like have far
+                                            // fewer, crossing pipes not many more
 
   static constexpr double largest_share_inside = 0.3; // of vertices; CAD systems put next to none there
 

@@ -38,6 +38,10 @@ constexpr double sliver_height = 0.125;
 /// Cosine of the angle, 150 degrees, by which faces turn where one of them is folded over.
 constexpr double cosine_of_fold = -0.866;
 
+/// In degrees: chamfers have exactly the angle that ridges begin with, and rounding shall not decide between the edges
+/// of one.
+constexpr double rounding_of_angles = 0.01;
+
 /// Whoever asks for ridges from this angle on, in degrees, wants no edges between planes either.
 constexpr double largest_angle_for_planes = 90;
 
@@ -56,7 +60,8 @@ public:
   Feature_marks(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
                 const Feature_parameters& parameters)
     : mesh_(mesh), points_(points), parameters_(parameters), facets_(find_facets(execution, mesh, points))
-    , cosine_of_ridge_(std::cos(parameters.ridge_angle * CGAL_PI / 180)), is_feature_(mesh.number_of_halfedges(), 0)
+    , cosine_of_ridge_(std::cos((parameters.ridge_angle - rounding_of_angles) * CGAL_PI / 180))
+    , is_feature_(mesh.number_of_halfedges(), 0)
   {
     mark_feature_edges(execution);
     if (!facets_.empty()) find_planes(mesh, points, [&](Index h) { return !is_marked(h); }, facets_);

@@ -114,15 +114,17 @@ inline Vector_3 mean_normal(const Mesh_view& mesh, const std::vector<Vector_3>& 
 
 /// The jet of the sector of the `n` faces from that of `first` on, where it has the normal `start` of Max: in a plane
 /// of the shape that of the plane, where facets of many sizes meet that of these; else of a fit; if none is good
-/// enough, with the mean normal of the triangles.
+/// enough, with the mean normal of the triangles. Sets `ruling` where facets say one.
 inline Jet jet_of_sector(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets, Index first,
-                         std::size_t n, const Vector_3& start)
+                         std::size_t n, const Vector_3& start, Vector_3& ruling)
 {
   const Metric_tensor_3 none(0, 0, 0, 0, 0, 0);
   if (!facets.empty()) {
     const Sector_facets sector(facets, mesh, points, first, n);
     if (const Facet* plane = sector.plane()) return {plane->normal, none, false};
-    const bool is_of_chords = facets.are_chords() && sector.has_polygon() && !sector.are_of_one_net();
+    if (facets.are_chords()) ruling = sector.ruling();
+    const bool is_of_chords = ruling.squaredNorm() > 0 ||
+                              (facets.are_chords() && sector.has_polygon() && !sector.are_of_one_net());
     const Vector_3 normal = is_of_chords ? sector.normal() : Vector_3::Zero();
     if (normal.squaredNorm() > 0) return {normal, none, false};
   }
@@ -143,8 +145,9 @@ inline Jet estimate_jet(const Mesh_view& mesh, const std::vector<Vector_3>& poin
   if (is_smooth && given.is_complete()) return given.at(v, jet);
   for_each_sector(mesh, v, [&](Index first, std::size_t n) {
     if (normals.of_corner[first] != sector) return;
-    jet = jet_of_sector(mesh, points, features.facets, first, n, jet.normal);
-    jet.normal = normal_on_features(mesh, features, first, n, jet.normal);
+    Vector_3 ruling = Vector_3::Zero();
+    jet = jet_of_sector(mesh, points, features.facets, first, n, jet.normal, ruling);
+    jet.normal = normal_on_features(mesh, features, first, n, jet.normal, ruling);
   });
   return is_smooth ? given.at(v, jet) : jet;
 }

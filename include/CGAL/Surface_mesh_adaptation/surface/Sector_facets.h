@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -33,7 +34,7 @@ public:
     for (Index h = first; n > 0; --n, h = mesh.rotated_ccw(h)) {
       const Index face = Mesh_view::face(h);
       if (corners_.empty() || corners_.back().facet != facets.of_face[face])
-        corners_.push_back({facets.of_face[face], h, h, Vector_3::Zero(), Vector_3::Zero(), 0});
+        corners_.push_back({facets.of_face[face], h, h, mesh.target(h), Vector_3::Zero(), Vector_3::Zero(), 0});
       corners_.back().last = h;
     }
     is_closed_ = is_closed;
@@ -45,7 +46,10 @@ public:
       const double next2 = (points[mesh.target(c.first)] - points[mesh.source(c.first)]).squaredNorm();
       has_split_side_ = has_split_side_ || c.right.squaredNorm() > next2;
     }
-    is_in_one_row_ = !is_closed && is_row(mesh, points);
+    is_in_one_row_ = !is_closed && is_row([&](Index end, const Vector_3& side) {
+      return is_on_crease(mesh, end) || !goes_on(mesh, points, end, side);
+    });
+    is_between_creases_ = !is_closed && is_row([&](Index end, const Vector_3&) { return is_on_crease(mesh, end); });
   }
 
   /// The largest plane of the shape among them, or null.
@@ -83,6 +87,23 @@ public:
     return true;
   }
 
+  /// The unit direction along which the surface is straight, nearly: the mean of that of their sides, where all reach
+  /// from one crease to another and are chords of nothing that bends along them as it does across. Zero elsewhere.
+  Vector_3 ruling() const
+  {
+    Vector_3 sum = Vector_3::Zero();
+    if (!is_between_creases_) return sum;
+    double shortest = std::numeric_limits<double>::infinity(), width = 0;
+    for (std::size_t i = 1; i < corners_.size(); ++i) {
+      const double length = corners_[i].right.norm();
+      sum += corners_[i].right / length;
+      shortest = (std::min)(shortest, length);
+      width += (facet(corners_[i - 1]).area + facet(corners_[i]).area) / (2 * length);
+    }
+    const double turn = angle_between(facet(corners_.front()).normal, facet(corners_.back()).normal);
+    return turn * shortest > largest_turn_of_chords * width ? Vector_3(sum.normalized()) : Vector_3::Zero();
+  }
+
   /// The mean of their normals with the weights of Max for whole facets, made orthogonal to sides that are too long to
   /// be chords of what goes on behind the vertex; zero if they say nothing.
   Vector_3 normal() const
@@ -100,9 +121,13 @@ private:
   /// Of one thing; rulings of a straight pipe may be no more than twice as long as what goes on around its bend.
   static constexpr double largest_ratio_of_sides = 2;
 
+  /// In radians: a surface that bends alike in all directions turns by less over one chord.
+  static constexpr double largest_turn_of_chords = 1;
+
   struct Corner
   {
     Index facet, first, last; // halfedges that leave the vertex in its first and last face
+    Index end;                // of the first
     Vector_3 right, left; // sides from the vertex on
     double depth;         // of the facet between them, if the corner is wide
   };
@@ -118,19 +143,28 @@ private:
     return first;
   }
 
-  /// Whether all sides between the facets of an open sector end on creases again, or where what goes on is far shorter.
-  bool is_row(const Mesh_view& mesh, const std::vector<Vector_3>& points) const
+  /// Whether all sides between the facets of an open sector end where `is_end(vertex, side)`: on creases, say, or where
+  /// what goes on is far shorter.
+  template <class End>
+  bool is_row(const End& is_end) const
   {
-    const auto ends = [&](const Corner& c) {
-      const Index end = mesh.target(c.first);
-      bool is_on_crease = false, goes_on = false;
-      mesh.for_each_outgoing(end, [&](Index h) {
-        is_on_crease |= mesh.is_crease(h);
-        goes_on |= is_continued(c.right, points[mesh.target(h)] - points[end]);
-      });
-      return is_on_crease || !goes_on;
-    };
-    return corners_.size() > 1 && std::all_of(corners_.begin() + 1, corners_.end(), ends);
+    return corners_.size() > 1 &&
+           std::all_of(corners_.begin() + 1, corners_.end(), [&](const Corner& c) { return is_end(c.end, c.right); });
+  }
+
+  static bool is_on_crease(const Mesh_view& mesh, Index v)
+  {
+    bool result = false;
+    mesh.for_each_outgoing(v, [&](Index h) { result |= mesh.is_crease(h); });
+    return result;
+  }
+
+  /// Whether the `side` that ends at `v` goes on there.
+  static bool goes_on(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index v, const Vector_3& side)
+  {
+    bool result = false;
+    mesh.for_each_outgoing(v, [&](Index h) { result |= is_continued(side, points[mesh.target(h)] - points[v]); });
+    return result;
   }
 
   /// Whether the side `d` goes on in `next`, straight and not much shorter.
@@ -210,7 +244,7 @@ private:
 
   const Facets& facets_;
   Ring<Corner> corners_;
-  bool is_closed_ = false, has_split_side_ = false, is_in_one_row_ = false;
+  bool is_closed_ = false, has_split_side_ = false, is_in_one_row_ = false, is_between_creases_ = false;
 };
 
 } // namespace internal

@@ -32,17 +32,19 @@ inline Vector_3 orthogonalized_normal(const Vector_3& normal, const Vector_3& s,
 }
 
 /// `normal` made orthogonal to the tangents of the feature curves that bound the sector of the `n` faces from `first`
-/// on, counterclockwise; as it is if there are none.
+/// on, counterclockwise, and on a curve to the direction `ruling`, if there is one; as it is if there are no curves.
 inline Vector_3 normal_on_features(const Mesh_view& mesh, const Features& features, Index first, std::size_t n,
-                                   const Vector_3& normal)
+                                   const Vector_3& normal, const Vector_3& ruling = Vector_3::Zero())
 {
   const Index v = mesh.source(first);
   if (features.vertex_class[v] == Vertex_class::smooth || !mesh.is_crease(first)) return normal;
   Index last = first;
   for (std::size_t i = 1; i < n; ++i) last = mesh.rotated_ccw(last);
   last = Mesh_view::previous(last); // towards the vertex, along the other curve
-  return orthogonalized_normal(normal, features.tangent(mesh.curve[first], v, mesh.target(first)),
-                               features.tangent(mesh.curve[last], v, mesh.source(last)));
+  const Vector_3& tangent = features.tangent(mesh.curve[first], v, mesh.target(first));
+  if (features.vertex_class[v] == Vertex_class::curve && ruling.squaredNorm() > 0)
+    return orthogonalized_normal(normal, tangent, ruling);
+  return orthogonalized_normal(normal, tangent, features.tangent(mesh.curve[last], v, mesh.source(last)));
 }
 
 /// Makes the normal of every smooth sector orthogonal to the tangents of the feature curves that bound it, as
