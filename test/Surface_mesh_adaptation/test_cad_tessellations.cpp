@@ -892,6 +892,24 @@ TEST(Cad_tessellations, of_cylinders_without_rulings_are_straight)
   }
 }
 
+/// Many vertices on the curves, and none between them at first.
+TEST(Cad_tessellations, of_cylinders_without_rulings_are_refined_around_not_across)
+{
+  Random random(10);
+  for (int i = 0; i < 4; ++i) {
+    const double length = random.real(4, 6), slope = random.real(0.4, 1);
+    const std::size_t n = 40 + 60 * random.below(2), m = 40 + 70 * random.below(2);
+    SCOPED_TRACE(std::to_string(length) + ", " + std::to_string(slope) + ", " + std::to_string(n));
+    const Part part = cut_cylinder(random, length, slope, n, m);
+    const Placed input = placed(part, {}, std::uint64_t(i));
+    const Soup result = adapted(input.soup, 0.03);
+    for (const shapes::Triangle& t : result.triangles) {
+      const Vector_3 center = (result.points[t[0]] + result.points[t[1]] + result.points[t[2]]) / 3;
+      ASSERT_LE(part.distance(center), part.sag);
+    }
+  }
+}
+
 // Smooth borders
 
 /// What comes out with smooth borders, and which edges of it are features.

@@ -15,11 +15,13 @@
 #include <CGAL/Surface_mesh_adaptation/kernels/degrees.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/folds.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/surface/sector_location.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <initializer_list>
 #include <vector>
 
 namespace CGAL {
@@ -101,6 +103,7 @@ private:
   static constexpr double max_quality_loss = 0.7;
   static constexpr double min_turn = 0.5;
   static constexpr double degenerate_quality = 1e-5; // below, one face is as bad as another
+  static constexpr double alignment_beside_curves = 0.97; // 14 degrees
   static constexpr double max_share = 0.99; // of the length of an edge between such faces
 
   /// Works through the edges from `v` to larger ids that lie in the block; whether some do not.
@@ -206,6 +209,7 @@ private:
                                                           alignment_of_face(surface_, old2, q, p, a)));
     if (alignment_of_face(surface_, new1, a, b, p) < limit || alignment_of_face(surface_, new2, b, a, q) < limit)
       return false;
+    if (!keeps_beside_curves(h, {old1, old2}, {new1, new2})) return false;
     if (old1 == Vector_3::Zero() && old2 == Vector_3::Zero() && !is_convex(p, q, a, b)) return false;
     const double turn = (std::min)(min_turn, cosine_of_turn(old1, old2));
     const bool is_thin = is_thin_face(surface_, p, q, b) && is_thin_face(surface_, q, p, a) &&
@@ -220,6 +224,25 @@ private:
     const auto fold = [&](Index e, const Vector_3& n) { return fold_across(surface_, e, n); };
     return (std::min)({fold(hn, new2), fold(hp, new1), fold(tn, new1), fold(tp, new2)}) >=
            (std::min)({min_fold, fold(hn, old1), fold(hp, old1), fold(tn, old2), fold(tp, old2)});
+  }
+
+  /// Whether faces between curves, none of whose corners has a normal of its own, stay where the surface beside these is.
+  /// One after the other, swaps would bring an edge across a cylinder. `before` and `after` are the normals of the faces.
+  bool keeps_beside_curves(Index h, const std::array<Vector_3, 2>& before, const std::array<Vector_3, 2>& after) const
+  {
+    const Index t = mesh_.twin[h];
+    const Index at_p = h, at_q = t, at_b = Mesh_view::previous(h), at_a = Mesh_view::previous(t);
+    const auto is_smooth = [&](Index g) { return surface_.vertex_class(mesh_.source(g)) == Vertex_class::smooth; };
+    if (is_smooth(at_a) || is_smooth(at_b) || (is_smooth(at_p) && is_smooth(at_q))) return true;
+    const auto alignment = [&](const Vector_3& n, std::initializer_list<Index> corners) {
+      double least = 1;
+      for (const Index g : corners) least = (std::min)(least, cosine_of_turn(n, normal_in_sector(surface_, g)));
+      return least;
+    };
+    const double limit = (std::min)({alignment_beside_curves, alignment(before[0], {at_p, at_q, at_b}),
+                                     alignment(before[1], {at_q, at_p, at_a})});
+    return (is_smooth(at_p) || alignment(after[0], {at_a, at_b, at_p}) >= limit) &&
+           (is_smooth(at_q) || alignment(after[1], {at_b, at_a, at_q}) >= limit);
   }
 
   static bool is_degenerate(double quality) { return quality < degenerate_quality; }

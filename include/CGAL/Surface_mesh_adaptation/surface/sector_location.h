@@ -52,7 +52,14 @@ Location location_in_sector(const Surface& surface, Index h)
   return takes_forward ? location_on_edge(forward, t) : location_on_edge(backward, 1 - t);
 }
 
-/// The same as a start of walks: a little inside of the face, where all ways are open.
+/// The normal of the reference there, between those of Max.
+template <class Surface>
+Vector_3 normal_in_sector(const Surface& surface, Index h)
+{
+  return surface.reference().flat_surface_point(location_in_sector(surface, h)).normal;
+}
+
+/// The location as a start of walks: a little inside of the face, where all ways are open.
 template <class Surface>
 auto start_in_sector(const Surface& surface, Index h)
 {
