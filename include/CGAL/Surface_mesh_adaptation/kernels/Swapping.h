@@ -209,7 +209,7 @@ private:
                                                           alignment_of_face(surface_, old2, q, p, a)));
     if (alignment_of_face(surface_, new1, a, b, p) < limit || alignment_of_face(surface_, new2, b, a, q) < limit)
       return false;
-    if (!keeps_beside_curves(h, {old1, old2}, {new1, new2})) return false;
+    if (length > thresholds_.max_length && !keeps_beside_curves(h, {old1, old2}, {new1, new2})) return false;
     if (old1 == Vector_3::Zero() && old2 == Vector_3::Zero() && !is_convex(p, q, a, b)) return false;
     const double turn = (std::min)(min_turn, cosine_of_turn(old1, old2));
     const bool is_thin = is_thin_face(surface_, p, q, b) && is_thin_face(surface_, q, p, a) &&
@@ -226,8 +226,9 @@ private:
            (std::min)({min_fold, fold(hn, old1), fold(hp, old1), fold(tn, old2), fold(tp, old2)});
   }
 
-  /// Whether faces between curves, none of whose corners has a normal of its own, stay where the surface beside these is.
-  /// One after the other, swaps would bring an edge across a cylinder. `before` and `after` are the normals of the faces.
+  /// Whether long faces between curves, none of whose corners has a normal of its own, stay where the surface beside
+  /// these is. One after the other, swaps would bring an edge across a cylinder. `before` and `after` are the normals of
+  /// the faces.
   bool keeps_beside_curves(Index h, const std::array<Vector_3, 2>& before, const std::array<Vector_3, 2>& after) const
   {
     const Index t = mesh_.twin[h];

@@ -156,6 +156,9 @@ public:
       return has_coplanar_neighbor(Index(f));
     });
     if (double(in_facets) < least_share * double(mesh_.number_of_faces())) return std::move(facets_);
+    if (double(in_facets) < usual_share * double(mesh_.number_of_faces()) &&
+        mean_quality(execution) > least_quality_of_meshers)
+      return std::move(facets_);
     facets_.of_face.assign(mesh_.number_of_faces(), no_index);
     for (const Index f : faces_by_area(execution))
       if (facets_.of_face[f] == no_index) grow(f);
@@ -167,8 +170,8 @@ public:
   }
 
 private:
-  static constexpr double least_share = 0.25; // of faces with a coplanar neighbour: scans and the like have far
-                                            // fewer, crossing pipes not many more
+  // Of faces with a coplanar neighbour: scans and the like have far fewer, crossing pipes, all needles, some.
+  static constexpr double least_share = 0.25, usual_share = 0.4;
 
   static constexpr double largest_share_inside = 0.3; // of vertices; CAD systems put next to none there
 
