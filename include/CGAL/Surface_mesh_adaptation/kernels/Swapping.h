@@ -103,6 +103,7 @@ private:
   static constexpr double max_quality_loss = 0.7;
   static constexpr double min_turn = 0.5;
   static constexpr double degenerate_quality = 1e-5; // below, one face is as bad as another
+  static constexpr double min_length_beside_curves = 4; // of edges for which that of faces between curves counts:
   static constexpr double alignment_beside_curves = 0.97; // 14 degrees
   static constexpr double max_share = 0.99; // of the length of an edge between such faces
 
@@ -209,7 +210,7 @@ private:
                                                           alignment_of_face(surface_, old2, q, p, a)));
     if (alignment_of_face(surface_, new1, a, b, p) < limit || alignment_of_face(surface_, new2, b, a, q) < limit)
       return false;
-    if (length > thresholds_.max_length && !keeps_beside_curves(h, {old1, old2}, {new1, new2})) return false;
+    if (length > min_length_beside_curves && !keeps_beside_curves(h, {old1, old2}, {new1, new2})) return false;
     if (old1 == Vector_3::Zero() && old2 == Vector_3::Zero() && !is_convex(p, q, a, b)) return false;
     const double turn = (std::min)(min_turn, cosine_of_turn(old1, old2));
     const bool is_thin = is_thin_face(surface_, p, q, b) && is_thin_face(surface_, q, p, a) &&

@@ -51,7 +51,8 @@ public:
     if (are_one(h)) return false;
     const Index t = mesh_.twin[h];
     const Edge_section section(mesh_, points_, facets_, h);
-    if (!(section.turn() > least_single_turn(section, h))) return false;
+    if (!(section.turn() > least_single_turn(section, h)) || (are_triangles(h) && is_beside_sliver(section, h)))
+      return false;
     return is_straight_beside(section, h, h) && is_straight_beside(section, h, t);
   }
 
@@ -92,6 +93,14 @@ private:
 
   /// Whether the facets on both sides are triangles alone: behind one of them the same strip may go on.
   bool are_triangles(Index h) const { return facet(h).faces + facet(mesh_.twin[h]).faces < 3; }
+
+  /// Whether one of the facets is so low over the edge that its normal is what rounding and noise make of it.
+  bool is_beside_sliver(const Edge_section& section, Index h) const
+  {
+    constexpr double least_extent = 0.05;
+    const double length = (points_[mesh_.target(h)] - points_[mesh_.source(h)]).norm();
+    return (std::min)(section.length(h), section.length(mesh_.twin[h])) < least_extent * length;
+  }
 
   static constexpr double few = 3; // facets
 
