@@ -658,10 +658,12 @@ Part cut_cylinder(Random& random, double length, double slope, std::size_t n, st
   for (std::size_t i = 0; i < m; ++i) top.push_back(at_top(i));
   part.polygons.add(bottom);
   part.polygons.add(top);
+  const auto after = [](const std::vector<double>& angles, std::size_t i) {
+    const std::size_t k = angles.size();
+    return i < k ? angles[(i + 1) % k] + (i + 1 < k ? 0 : 2 * pi) : 4 * pi;
+  };
   for (std::size_t i = 0, j = 0; i < n || j < m;) {
-    const double next_below = i < n ? below[(i + 1) % n] + (i + 1 < n ? 0 : 2 * pi) : 4 * pi;
-    const double next_above = j < m ? above[(j + 1) % m] + (j + 1 < m ? 0 : 2 * pi) : 4 * pi;
-    if (next_below < next_above) {
+    if (after(below, i) < after(above, j)) {
       part.polygons.add({at_bottom(i), at_bottom(i + 1), at_top(j)});
       ++i;
     } else {

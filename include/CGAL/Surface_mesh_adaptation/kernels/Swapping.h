@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <initializer_list>
 #include <vector>
 
 namespace CGAL {
@@ -233,18 +232,18 @@ private:
   bool keeps_beside_curves(Index h, const std::array<Vector_3, 2>& before, const std::array<Vector_3, 2>& after) const
   {
     const Index t = mesh_.twin[h];
-    const Index at_p = h, at_q = t, at_b = Mesh_view::previous(h), at_a = Mesh_view::previous(t);
     const auto is_smooth = [&](Index g) { return surface_.vertex_class(mesh_.source(g)) == Vertex_class::smooth; };
-    if (is_smooth(at_a) || is_smooth(at_b) || (is_smooth(at_p) && is_smooth(at_q))) return true;
-    const auto alignment = [&](const Vector_3& n, std::initializer_list<Index> corners) {
-      double least = 1;
-      for (const Index g : corners) least = (std::min)(least, cosine_of_turn(n, normal_in_sector(surface_, g)));
-      return least;
+    const Index at_b = Mesh_view::previous(h), at_a = Mesh_view::previous(t);
+    if (is_smooth(at_a) || is_smooth(at_b) || (is_smooth(h) && is_smooth(t))) return true;
+    const Vector_3 p = normal_in_sector(surface_, h), q = normal_in_sector(surface_, t),
+                   a = normal_in_sector(surface_, at_a), b = normal_in_sector(surface_, at_b);
+    const auto alignment = [](const Vector_3& n, const Vector_3& u, const Vector_3& v, const Vector_3& w) {
+      return (std::min)({cosine_of_turn(n, u), cosine_of_turn(n, v), cosine_of_turn(n, w)});
     };
-    const double limit = (std::min)({alignment_beside_curves, alignment(before[0], {at_p, at_q, at_b}),
-                                     alignment(before[1], {at_q, at_p, at_a})});
-    return (is_smooth(at_p) || alignment(after[0], {at_a, at_b, at_p}) >= limit) &&
-           (is_smooth(at_q) || alignment(after[1], {at_b, at_a, at_q}) >= limit);
+    const double limit =
+      (std::min)({alignment_beside_curves, alignment(before[0], p, q, b), alignment(before[1], q, p, a)});
+    return (is_smooth(h) || alignment(after[0], a, b, p) >= limit) &&
+           (is_smooth(t) || alignment(after[1], b, a, q) >= limit);
   }
 
   static bool is_degenerate(double quality) { return quality < degenerate_quality; }

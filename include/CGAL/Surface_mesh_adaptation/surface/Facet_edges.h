@@ -77,8 +77,7 @@ private:
 
   double least_single_turn(const Edge_section& section, Index h) const
   {
-    const double length2 = (points_[mesh_.target(h)] - points_[mesh_.source(h)]).squaredNorm();
-    const bool is_across = section.length() * section.length() > length2;
+    const bool is_across = section.length() > edge_length(h);
     return is_across || are_triangles(h) ? least_turn_across_strips : least_turn_along_strips;
   }
 
@@ -98,9 +97,10 @@ private:
   bool is_beside_sliver(const Edge_section& section, Index h) const
   {
     constexpr double least_extent = 0.05;
-    const double length = (points_[mesh_.target(h)] - points_[mesh_.source(h)]).norm();
-    return (std::min)(section.length(h), section.length(mesh_.twin[h])) < least_extent * length;
+    return (std::min)(section.length(h), section.length(mesh_.twin[h])) < least_extent * edge_length(h);
   }
+
+  double edge_length(Index h) const { return (points_[mesh_.target(h)] - points_[mesh_.source(h)]).norm(); }
 
   static constexpr double few = 3; // facets
 
