@@ -1136,7 +1136,7 @@ TEST(Cad_tessellations, whose_smooth_surface_leaves_them_by_several_tolerances_a
     return SMA::adapt_surface_mesh(sequential, mesh, SMA::Curvature_metric_field(0.0005)).warnings;
   };
   const auto is_of_bulge = [](const std::string& s) { return s.find("leaves the faces") != std::string::npos; };
-  const auto coarse = warnings(3), fine = warnings(12);
+  const auto coarse = warnings(2), fine = warnings(12);
   EXPECT_TRUE(std::any_of(coarse.begin(), coarse.end(), is_of_bulge));
   EXPECT_FALSE(std::any_of(fine.begin(), fine.end(), is_of_bulge));
 }

@@ -140,7 +140,8 @@ step at the end: if anything throws, it is as it was.
                       or a distance from the surface that is missed}
   \cgalParamNEnd
   \cgalParamNBegin{feature_angle}
-    \cgalParamDescription{an edge is a ridge if the normals of its faces differ by as much, to a hundredth of a degree}
+    \cgalParamDescription{an edge is a ridge if the normals of its faces differ by more than this; in CAD tessellations by as
+                          much, to a hundredth of a degree, but between facets as large as each other}
     \cgalParamType{`double`, in degrees, above 0 and up to 180}
     \cgalParamDefault{`45`}
   \cgalParamNEnd

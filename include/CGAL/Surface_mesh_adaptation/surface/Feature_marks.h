@@ -39,7 +39,7 @@ constexpr double sliver_height = 0.125;
 constexpr double cosine_of_fold = -0.866;
 
 /// In degrees: chamfers have exactly the angle that ridges begin with, and rounding shall not decide between the edges
-/// of one.
+/// of one. On scans and meshes of a mesher no angle is meant exactly.
 constexpr double rounding_of_angles = 0.01;
 
 /// Whoever asks for ridges from this angle on, in degrees, wants no edges between planes either.
@@ -60,7 +60,8 @@ public:
   Feature_marks(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
                 const Feature_parameters& parameters)
     : mesh_(mesh), points_(points), parameters_(parameters), facets_(find_facets(execution, mesh, points))
-    , cosine_of_ridge_(std::cos((parameters.ridge_angle - rounding_of_angles) * CGAL_PI / 180))
+    , cosine_of_ridge_(cosine_of_ridge(0)), cosine_below_(cosine_of_ridge(-rounding_of_angles))
+    , cosine_above_(cosine_of_ridge(rounding_of_angles))
     , is_feature_(mesh.number_of_halfedges(), 0)
   {
     mark_feature_edges(execution);
@@ -104,13 +105,24 @@ public:
   }
 
 private:
+  double cosine_of_ridge(double more) const { return std::cos((parameters_.ridge_angle + more) * CGAL_PI / 180); }
+
   Vector_3 normal(Index f) const { return face_normal(mesh_, points_, 3 * f); }
 
   bool is_ridge(Index h) const
   {
     if (facets_.empty()) return is_turned(h, cosine_of_ridge_);
     const Index f = Mesh_view::face(h), g = Mesh_view::face(mesh_.twin[h]);
-    return !facets_.are_one(f, g) && facets_.at(f).normal.dot(facets_.at(g).normal) < cosine_of_ridge_;
+    const double cosine = facets_.at(f).normal.dot(facets_.at(g).normal);
+    return !facets_.are_one(f, g) && (cosine < cosine_above_ || (cosine < cosine_below_ && !are_regular(f, g)));
+  }
+
+  /// Whether the facets of two faces are as large as each other, as those of a round bore are: at the very angle of
+  /// ridges that decides, since chamfers are narrower than what they are between.
+  bool are_regular(Index f, Index g) const
+  {
+    constexpr double largest_ratio = 1.25;
+    return internal::are_alike(facets_.at(f).area, facets_.at(g).area, largest_ratio);
   }
 
   bool is_turned(Index h, double cosine) const
@@ -346,7 +358,7 @@ private:
   const std::vector<Vector_3>& points_;
   const Feature_parameters& parameters_;
   Facets facets_;
-  double cosine_of_ridge_;
+  double cosine_of_ridge_, cosine_below_, cosine_above_; // of the angle, and on both sides of what rounding makes of it
   std::vector<std::uint8_t> is_feature_;
 };
 

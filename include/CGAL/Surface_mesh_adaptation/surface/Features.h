@@ -70,7 +70,7 @@ enum class Edge_constraint : std::uint8_t {
 struct Feature_parameters
 {
   bool detect_ridges = true;  ///< else only boundaries and what is constrained are features
-  double ridge_angle = 45;    ///< degrees: an edge is a ridge if the normals of its faces differ by as much
+  double ridge_angle = 45;    ///< degrees: an edge is a ridge if the normals of its faces differ by more
   double corner_angle = 60;   ///< degrees: a curve that turns by more at a vertex has a corner there
   bool smooth_borders = false; ///< whether planes keep their outlines where something curved joins them smoothly
   std::vector<Edge_constraint> halfedge_constraint; ///< the same on both sides
