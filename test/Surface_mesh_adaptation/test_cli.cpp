@@ -25,6 +25,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <set>
 #include <sstream>
 #include <string>
@@ -716,6 +717,26 @@ TEST_F(Adapt_mesh, tells_binary_stl_files_from_text)
   expect_failure(3, "bad.stl out.off --size 0.3", "bad.stl");
   write(path("bad.stl"), "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid\n");
   expect_failure(3, "bad.stl out.off --size 0.3", "bad.stl:7: not a valid stl file: a facet is no triangle");
+}
+
+TEST_F(Adapt_mesh, leaves_out_triangles_of_stl_files_that_are_edges_or_points)
+{
+  write(path("in.stl"), stl(sphere_, "as it should be"));
+  expect_success("in.stl expected.off --size 0.3 --quiet");
+  std::mt19937 random(17);
+  Soup soup = sphere_;
+  for (int i = 0; i < 7; ++i) {
+    const auto t = soup.triangles[random() % soup.triangles.size()];
+    const auto at = soup.triangles.begin() + std::ptrdiff_t(random() % soup.triangles.size());
+    soup.triangles.insert(at, i == 0 ? shapes::Triangle{t[0], t[0], t[0]} : shapes::Triangle{t[i % 2], t[1], t[1 - i % 2]});
+  }
+  write(path("in.stl"), stl(soup, "by a CAD system"));
+  const Outcome r = run("in.stl out.off --size 0.3");
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_NE(r.err.find("in.stl: not kept: 7 triangles with two corners at one place"), std::string::npos) << r.err;
+  EXPECT_EQ(checks::topology(read(path("out.off"))).boundary_cycles, 0u);
+  EXPECT_EQ(checks::topology(read(path("out.off"))).euler_characteristic, 2);
+  EXPECT_NEAR(checks::area(read(path("out.off"))), checks::area(read(path("expected.off"))), 1e-2);
 }
 
 TEST_F(Adapt_mesh, refuses_metrics_that_do_not_fit)

@@ -366,6 +366,7 @@ TEST_F(Content, names_of_solids)
       }
       text += "endloop\nendfacet\n";
     }
+    text += "facet normal 0 0 0\nouter loop\nvertex 1 1 1\nvertex 1 1 1\nvertex 0 1 1\nendloop\nendfacet\n";
     text += "endsolid\n";
   }
   write(path("in.stl"), text);

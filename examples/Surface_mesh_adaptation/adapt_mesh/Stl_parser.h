@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// STL files, text and binary. Corners of triangles at the same place are one point.
+// STL files, text and binary. Corners of triangles at the same place are one point; triangles that two corners at one
+// place leave without an area, as CAD systems write them at the tips of cones, are none.
 
 #ifndef ADAPT_MESH_STL_PARSER_H
 #define ADAPT_MESH_STL_PARSER_H
@@ -88,6 +89,7 @@ public:
   {
     if (is_binary()) read_binary();
     else read_text();
+    leave_out_collapsed();
     return std::move(soup_);
   }
 
@@ -158,6 +160,23 @@ private:
       soup_.polygons.back().push_back(number_(x, y, z));
     }
     if (soup_.polygons.back().size() != 3) in_.fail("not a valid stl file: a facet is no triangle");
+  }
+
+  void leave_out_collapsed()
+  {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < soup_.polygons.size(); ++i) {
+      const Polygon& p = soup_.polygons[i];
+      if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;
+      soup_.polygons[kept] = p;
+      if (!soup_.labels.empty()) soup_.labels[kept] = soup_.labels[i];
+      ++kept;
+    }
+    const std::size_t n = soup_.polygons.size() - kept;
+    if (n == 0) return;
+    soup_.polygons.resize(kept);
+    if (!soup_.labels.empty()) soup_.labels.resize(kept);
+    soup_.lost.push_back(std::to_string(n) + (n == 1 ? " triangle" : " triangles") + " with two corners at one place");
   }
 
   double coordinate() { return in_.number<double>("a coordinate"); }

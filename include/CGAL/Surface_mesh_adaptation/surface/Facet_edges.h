@@ -56,6 +56,18 @@ public:
     return is_straight_beside(section, h, h) && is_straight_beside(section, h, t);
   }
 
+  /// Whether the edge `last`, below the angle of ridges, fades in `h`: the surface turns less there, but not as it does
+  /// beside it.
+  bool fades_in(Index last, Index h) const
+  {
+    if (are_one(h)) return false;
+    const Edge_section section(mesh_, points_, facets_, h);
+    const double turn_of_last = angle_between(facet(last).normal, facet(mesh_.twin[last]).normal);
+    return section.turn() < turn_of_last && section.turn() > least_turn_of_facets && !is_beside_sliver(section, h) &&
+           !turns_again(section, h, largest_turn_beside_fading, section.length()) &&
+           !turns_again(section, mesh_.twin[h], largest_turn_beside_fading, section.length());
+  }
+
   /// Whether a plane ends at `h` in something curved, or strips do that are straight across it.
   bool is_smooth_border(Index h) const
   {
@@ -65,8 +77,9 @@ public:
   }
 
 private:
-  /// A turn is a single one if the surface turns no more than this part of it again on either side.
-  static constexpr double largest_turn_again = 1.0 / 3;
+  /// A turn is a single one if the surface turns no more than this part of it again on either side; more may follow
+  /// where it is known from the edges before it.
+  static constexpr double largest_turn_again = 1.0 / 3, largest_turn_beside_fading = 2.0 / 3;
 
   /// Turns that are less than this, five degrees, or ten where the facets are longer along the edge than across, are
   /// what diagonals make of something smooth.

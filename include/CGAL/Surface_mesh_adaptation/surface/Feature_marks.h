@@ -38,6 +38,9 @@ constexpr double sliver_height = 0.125;
 /// Cosine of the angle, 150 degrees, by which faces turn where one of them is folded over.
 constexpr double cosine_of_fold = -0.866;
 
+/// Cosine of the angle, 30 degrees, by which a ridge may bend where it fades.
+constexpr double cosine_of_fading = 0.866;
+
 /// In degrees: chamfers have exactly the angle that ridges begin with, and rounding shall not decide between the edges
 /// of one. On scans and meshes of a mesher no angle is meant exactly.
 constexpr double rounding_of_angles = 0.01;
@@ -189,6 +192,44 @@ private:
   {
     mark_all(execution, ridge, [&](Index h) { return facet_edges().ends_plane(h); });
     mark_all(execution, ridge, [&](Index h) { return facet_edges().is_single_turn(h); });
+    for (const Index v : vertices_on_features(execution))
+      for (Index w = v; w != no_index;) w = extended(w);
+  }
+
+  /// Marks the edge in which a ridge that ends at `v` fades, and returns its other end, or `no_index` if there is none.
+  Index extended(Index v)
+  {
+    const Index last = end_of_ridge(v);
+    if (last == no_index || is_ridge(last)) return no_index;
+    Index straightest = no_index;
+    double largest_cosine = cosine_of_fading;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      const double cosine = -cosine_between(h, last);
+      if (!(cosine > largest_cosine) || is_convex(h) != is_convex(last) || !facet_edges().fades_in(last, h)) return;
+      largest_cosine = cosine;
+      straightest = h;
+    });
+    if (straightest == no_index) return no_index;
+    set_mark(straightest, ridge);
+    return mesh_.target(straightest);
+  }
+
+  /// The halfedge back from `v` along the only feature edge there, if that is a ridge, and `v` not on the boundary.
+  Index end_of_ridge(Index v) const
+  {
+    Index last = no_index;
+    std::size_t degree = 0;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      degree += is_marked(h);
+      if (is_feature_[h] == ridge) last = h;
+    });
+    return degree == 1 && !mesh_.is_border_vertex(v) ? last : no_index;
+  }
+
+  double cosine_between(Index g, Index h) const
+  {
+    const auto direction = [&](Index i) { return Vector_3(points_[mesh_.target(i)] - points_[mesh_.source(i)]); };
+    return direction(g).normalized().dot(direction(h).normalized());
   }
 
   /// Marks the edges without a mark for which `predicate(h)`, which sees none of the new marks.

@@ -109,11 +109,11 @@ public:
   Vector_3 normal() const
   {
     Vector_3 n = weighted_normal();
-    for (const Corner& c : corners_) {
-      const Vector_3& d = c.right;
-      if ((&c == &corners_.front() && !is_closed_) || !is_straight(d)) continue;
-      n -= n.dot(d) / d.squaredNorm() * d;
-    }
+    double largest2 = 0;
+    for (const Corner& c : corners_) largest2 = (std::max)(largest2, squared_ratio_to_opposite(c));
+    const double least2 = (std::max)(squared(largest_ratio_of_sides), squared(least_part_of_straightest) * largest2);
+    for (const Corner& c : corners_)
+      if (squared_ratio_to_opposite(c) > least2) n -= n.dot(c.right) / c.right.squaredNorm() * c.right;
     return n.squaredNorm() > 0 ? Vector_3(n.normalized()) : n;
   }
 
@@ -121,8 +121,13 @@ private:
   /// Of one thing; rulings of a straight pipe may be no more than twice as long as what goes on around its bend.
   static constexpr double largest_ratio_of_sides = 2;
 
+  /// Of how straight the straightest side is: beside rulings, what is just longer than twice is a chord.
+  static constexpr double least_part_of_straightest = 0.25;
+
   /// In radians: a surface that bends alike in all directions turns by less over one chord.
   static constexpr double largest_turn_of_chords = 1;
+
+  static double squared(double x) { return x * x; }
 
   struct Corner
   {
@@ -205,6 +210,7 @@ private:
 
   static constexpr double least_sine = 0.01; // of a corner; less: it belongs to a sliver
   static constexpr double straight = 0.7;    // cosine: 45 degrees from straight on
+  static constexpr double almost_across = 0.5; // cosine: 60 degrees; triangles may have no side any straighter
 
   /// Of the angle at the corner `c`; negative where it is reflex.
   double sine(const Corner& c) const
@@ -227,19 +233,21 @@ private:
     return depth;
   }
 
-  /// Whether the side `d` is a straight line of the shape: far longer than the one that goes on across the vertex.
-  bool is_straight(const Vector_3& d) const
+  /// How many times as long, squared, the right side of `c` is as the one that goes on best across the vertex: 0 if none
+  /// does, and on creases.
+  double squared_ratio_to_opposite(const Corner& corner) const
   {
-    const Vector_3* opposite = nullptr;
-    double least_cosine = -straight;
+    if (&corner == &corners_.front() && !is_closed_) return 0;
+    const Vector_3& d = corner.right;
+    double ratio2 = 0, least_cosine = is_closed_ ? -almost_across : -straight;
     for (const Corner& c : corners_)
       for (const Vector_3* s : {&c.right, &c.left}) {
         const double cosine = s->dot(d) / std::sqrt(s->squaredNorm() * d.squaredNorm());
         if (!(cosine < least_cosine)) continue;
         least_cosine = cosine;
-        opposite = s;
+        ratio2 = d.squaredNorm() / s->squaredNorm();
       }
-    return opposite && d.squaredNorm() > largest_ratio_of_sides * largest_ratio_of_sides * opposite->squaredNorm();
+    return ratio2;
   }
 
   const Facets& facets_;
