@@ -640,37 +640,42 @@ Polygons chamfered_ellipse(Random& random, double a, double chamfer, std::size_t
   return result;
 }
 
-/// A cylinder of radius 1 from z = 0 to the plane z = `length` + `slope` x, with `n` vertices at one end and `m` at the
-/// other: no edge is a ruling.
-Part cut_cylinder(Random& random, double length, double slope, std::size_t n, std::size_t m)
+/// Triangles between two closed curves around the z axis that have vertices at angles of their own.
+template <class Below, class Above>
+void add_strip(Polygons& polygons, const std::vector<double>& below, const std::vector<double>& above,
+               const Below& at_below, const Above& at_above)
 {
-  const std::vector<double> below = angles_around(random, n), above = angles_around(random, m);
-  const auto at_bottom = [&](std::size_t i) -> Vector_3 {
-    return {std::cos(below[i % n]), std::sin(below[i % n]), 0};
+  const std::size_t n = below.size(), m = above.size();
+  const auto corner = [](const std::vector<double>& angles, std::size_t i, const auto& at) {
+    return Vector_3(at(angles[i % angles.size()]));
   };
-  const auto at_top = [&](std::size_t i) -> Vector_3 {
-    const double x = std::cos(above[i % m]);
-    return {x, std::sin(above[i % m]), length + slope * x};
-  };
-  Part part;
-  std::vector<Vector_3> bottom, top;
-  for (std::size_t i = 0; i < n; ++i) bottom.insert(bottom.begin(), at_bottom(i));
-  for (std::size_t i = 0; i < m; ++i) top.push_back(at_top(i));
-  part.polygons.add(bottom);
-  part.polygons.add(top);
   const auto after = [](const std::vector<double>& angles, std::size_t i) {
     const std::size_t k = angles.size();
     return i < k ? angles[(i + 1) % k] + (i + 1 < k ? 0 : 2 * pi) : 4 * pi;
   };
   for (std::size_t i = 0, j = 0; i < n || j < m;) {
-    if (after(below, i) < after(above, j)) {
-      part.polygons.add({at_bottom(i), at_bottom(i + 1), at_top(j)});
-      ++i;
-    } else {
-      part.polygons.add({at_bottom(i), at_top(j + 1), at_top(j)});
-      ++j;
-    }
+    const Vector_3 low = corner(below, i, at_below), high = corner(above, j, at_above);
+    if (after(below, i) < after(above, j)) polygons.add({low, corner(below, ++i, at_below), high});
+    else polygons.add({low, corner(above, ++j, at_above), high});
   }
+}
+
+/// A cylinder of radius 1 from z = 0 to the plane z = `length` + `slope` x, with `n` vertices at one end and `m` at the
+/// other: no edge is a ruling.
+Part cut_cylinder(Random& random, double length, double slope, std::size_t n, std::size_t m)
+{
+  const std::vector<double> below = angles_around(random, n), above = angles_around(random, m);
+  const auto at_bottom = [](double angle) -> Vector_3 { return {std::cos(angle), std::sin(angle), 0}; };
+  const auto at_top = [=](double angle) -> Vector_3 {
+    return {std::cos(angle), std::sin(angle), length + slope * std::cos(angle)};
+  };
+  Part part;
+  std::vector<Vector_3> bottom, top;
+  for (const double angle : below) bottom.insert(bottom.begin(), at_bottom(angle));
+  for (const double angle : above) top.push_back(at_top(angle));
+  part.polygons.add(bottom);
+  part.polygons.add(top);
+  add_strip(part.polygons, below, above, at_bottom, at_top);
   const double down = 1 / std::hypot(1, slope);
   part.distance = [=](const Vector_3& p) {
     const double to_plane = std::abs(p[2] - length - slope * p[0]) * down;
@@ -678,6 +683,83 @@ Part cut_cylinder(Random& random, double length, double slope, std::size_t n, st
   };
   part.is_flat = [](const Vector_3& p) { return std::abs(p[2]) < 1e-9; };
   part.sag = 1 - std::cos(1.4 * pi / double((std::min)(n, m)));
+  part.size = 0.15;
+  return part;
+}
+
+/// Two pipes of radius 1 along the z and the x axis, with ends at a distance of `length`: where they touch, the edges
+/// between them fade. These have `k` chords on either side of there, the ends `m` vertices.
+Part crossing_pipes(Random& random, double length, std::size_t k, std::size_t m)
+{
+  std::vector<double> on_edge{-pi / 2, pi / 2};
+  for (std::size_t i = 1; i < k; ++i) {
+    const double angle = (double(i) + random.real(-0.2, 0.2)) / double(k) * pi - pi / 2;
+    on_edge.push_back(angle);
+    on_edge.push_back(pi - angle);
+  }
+  std::sort(on_edge.begin(), on_edge.end());
+  const std::vector<double> at_end = angles_around(random, m);
+  Part part;
+  for (int arm = 0; arm < 4; ++arm) {
+    const Eigen::Matrix3d turned = Eigen::AngleAxisd(arm * pi / 2, Vector_3::UnitY()).toRotationMatrix();
+    const auto at = [&](double angle, double z) -> Vector_3 {
+      return turned * Vector_3(std::cos(angle), std::sin(angle), z);
+    };
+    const auto start = [&](double angle) { return at(angle, std::abs(std::cos(angle))); };
+    const auto end = [&](double angle) { return at(angle, length); };
+    // both from -pi / 2 on
+    std::vector<double> ends = at_end;
+    for (double& angle : ends) angle -= pi / 2;
+    add_strip(part.polygons, on_edge, ends, start, end);
+    std::vector<Vector_3> cap;
+    for (const double angle : ends) cap.push_back(end(angle));
+    part.polygons.add(cap);
+  }
+  part.distance = [=](const Vector_3& p) {
+    const double upright = (std::max)(std::hypot(p[0], p[1]) - 1, std::abs(p[2]) - length);
+    const double lying = (std::max)(std::hypot(p[1], p[2]) - 1, std::abs(p[0]) - length);
+    return (std::min)(upright, lying);
+  };
+  part.is_flat = [=](const Vector_3& p) { return (std::max)(std::abs(p[0]), std::abs(p[2])) > length - 1e-9; };
+  part.sag = 1 - std::cos(1.4 * pi / double((std::min)(2 * k, m)));
+  part.size = 0.15;
+  return part;
+}
+
+/// A cylinder of radius 1 from z = `length` down to z = 0, with `n` rulings, that ends in half a ball whose triangles
+/// have no edges along the meridians.
+Part rounded_post(Random& random, double length, std::size_t n)
+{
+  const std::size_t rows = n / 4;
+  const auto on_ball = [](double angle, double down) -> Vector_3 {
+    return {std::cos(down) * std::cos(angle), std::cos(down) * std::sin(angle), -std::sin(down)};
+  };
+  Part part;
+  std::vector<double> above = angles_around(random, n);
+  std::vector<Vector_3> top;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vector_3 a = on_ball(above[i], 0), b = on_ball(above[(i + 1) % n], 0), up(0, 0, length);
+    part.polygons.add({a, b, b + up, a + up});
+    top.push_back(a + up);
+  }
+  part.polygons.add(top);
+  for (std::size_t j = 1; j <= rows; ++j) {
+    const double down = double(j) / double(rows) * pi / 2, down_before = double(j - 1) / double(rows) * pi / 2;
+    const std::size_t around = (std::max)(std::size_t(double(n) * std::cos(down)), std::size_t(6));
+    const double turned = pi / double(around);
+    std::vector<double> below;
+    for (const double angle : angles_around(random, around)) below.push_back(angle + turned);
+    const auto at_below = [&](double angle) { return on_ball(angle, j == rows ? pi / 2 : down); };
+    const auto at_above = [&](double angle) { return on_ball(angle, down_before); };
+    add_strip(part.polygons, below, above, at_below, at_above);
+    above = below;
+  }
+  part.distance = [=](const Vector_3& p) {
+    if (p[2] < 0) return p.norm() - 1;
+    return (std::max)(std::hypot(p[0], p[1]) - 1, p[2] - length);
+  };
+  part.is_flat = [=](const Vector_3& p) { return p[2] > length - 1e-9; };
+  part.sag = 1 - std::cos(1.4 * pi / double(n));
   part.size = 0.15;
   return part;
 }
@@ -888,6 +970,39 @@ TEST(Cad_tessellations, of_cylinders_without_rulings_are_straight)
     SCOPED_TRACE(std::to_string(length) + ", " + std::to_string(slope) + ", " + std::to_string(n));
     const Part part = cut_cylinder(random, length, slope, n, m);
     const Placed input = placed(part, {}, std::uint64_t(i));
+    const Errors e = errors(part, input, adapted(input.soup, part.size));
+    EXPECT_LE(e.largest, part.sag);
+    EXPECT_LE(e.rms, 0.25 * part.sag);
+  }
+}
+
+TEST(Cad_tessellations, of_pipes_that_touch_keep_the_edges_up_to_there)
+{
+  Random random(11);
+  for (int i = 0; i < 8; ++i) {
+    const double length = random.real(2.5, 5);
+    const std::size_t k = 2 * (8 + random.below(12)), m = 30 + random.below(40);
+    SCOPED_TRACE(std::to_string(length) + ", " + std::to_string(k) + ", " + std::to_string(m));
+    const Part part = crossing_pipes(random, length, k, m);
+    const Variant variant{"", 0, false, i % 2 == 1, {0, 0, 0}, i % 4 < 2};
+    const Placed input = placed(part, variant, std::uint64_t(i));
+    EXPECT_EQ(number_of_ridges(input.soup), 4 * (k + m));
+    const Errors e = errors(part, input, adapted(input.soup, part.size));
+    EXPECT_LE(e.largest, part.sag);
+    EXPECT_LE(e.rms, 0.5 * part.sag);
+  }
+}
+
+TEST(Cad_tessellations, of_posts_with_round_ends_are_straight_up_to_there)
+{
+  Random random(12);
+  for (int i = 0; i < 8; ++i) {
+    const double length = random.real(2, 6);
+    const std::size_t n = 20 + random.below(40);
+    SCOPED_TRACE(std::to_string(length) + ", " + std::to_string(n));
+    const Part part = rounded_post(random, length, n);
+    const Variant variant{"", 0, false, i % 2 == 1, {0, 0, 0}, i % 4 < 2};
+    const Placed input = placed(part, variant, std::uint64_t(i));
     const Errors e = errors(part, input, adapted(input.soup, part.size));
     EXPECT_LE(e.largest, part.sag);
     EXPECT_LE(e.rms, 0.25 * part.sag);

@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/surface/vertex_normals.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -152,13 +153,7 @@ public:
   Facets run(const Execution& execution)
   {
     facets_.rounding = coordinate_rounding(execution, points_);
-    const std::size_t in_facets = count_if(execution, mesh_.number_of_faces(), [&](std::size_t f) {
-      return has_coplanar_neighbor(Index(f));
-    });
-    if (double(in_facets) < least_share * double(mesh_.number_of_faces())) return std::move(facets_);
-    if (double(in_facets) < usual_share * double(mesh_.number_of_faces()) &&
-        mean_quality(execution) > least_quality_of_meshers)
-      return std::move(facets_);
+    if (!is_tessellation(execution)) return std::move(facets_);
     facets_.of_face.assign(mesh_.number_of_faces(), no_index);
     for (const Index f : faces_by_area(execution))
       if (facets_.of_face[f] == no_index) grow(f);
@@ -171,11 +166,26 @@ public:
 
 private:
   // Of faces with a coplanar neighbour: scans and the like have far fewer, crossing pipes, all needles, some.
-  static constexpr double least_share = 0.25, usual_share = 0.4;
+  static constexpr double least_share = 0.25, usual_share = 0.4, least_share_of_area = 0.5;
 
   static constexpr double largest_share_inside = 0.3; // of vertices; CAD systems put next to none there
 
   static constexpr double least_quality_of_meshers = 0.6; // of their triangles; facets cut into more of these have .3
+
+  /// Whether enough of the faces have a coplanar neighbour: of their number, or of their area where these are few and
+  /// large.
+  template <class Execution>
+  bool is_tessellation(const Execution& execution) const
+  {
+    using Sums = std::array<double, 4>; // number and area of these faces, and of all
+    const Sums sums = reduce(execution, mesh_.number_of_faces(), Sums{}, [&](std::size_t f) -> Sums {
+      const double area = face_normal(mesh_, points_, Index(3 * f)).norm() / 2;
+      return has_coplanar_neighbor(Index(f)) ? Sums{1, area, 1, area} : Sums{0, 0, 1, area};
+    }, [](const Sums& a, const Sums& b) -> Sums { return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]}; });
+    const double share = sums[0] / sums[2];
+    if (share >= usual_share || sums[1] >= least_share_of_area * sums[3]) return true;
+    return share >= least_share && mean_quality(execution) <= least_quality_of_meshers;
+  }
 
   /// Of the triangles: 1 if they are equilateral.
   template <class Execution>
