@@ -210,7 +210,8 @@ private:
 
   static constexpr double least_sine = 0.01; // of a corner; less: it belongs to a sliver
   static constexpr double straight = 0.7;    // cosine: 45 degrees from straight on
-  static constexpr double almost_across = 0.5; // cosine: 60 degrees; triangles may have no side any straighter
+  static constexpr double almost_across = 0.17; // cosine: 80 degrees; triangles may have no side any straighter
+  static constexpr double far_longer = 4;
 
   /// Of the angle at the corner `c`; negative where it is reflex.
   double sine(const Corner& c) const
@@ -233,8 +234,8 @@ private:
     return depth;
   }
 
-  /// How many times as long, squared, the right side of `c` is as the one that goes on best across the vertex: 0 if none
-  /// does, and on creases.
+  /// How many times as long, squared, the right side of `corner` is as the one that goes on best across the vertex: 0 if
+  /// none does, and on creases. Inside, one far off straight on counts as far longer.
   double squared_ratio_to_opposite(const Corner& corner) const
   {
     if (&corner == &corners_.front() && !is_closed_) return 0;
@@ -247,7 +248,7 @@ private:
         least_cosine = cosine;
         ratio2 = d.squaredNorm() / s->squaredNorm();
       }
-    return ratio2;
+    return least_cosine < -straight ? ratio2 : ratio2 / squared(far_longer);
   }
 
   const Facets& facets_;
