@@ -764,6 +764,39 @@ Part rounded_post(Random& random, double length, std::size_t n)
   return part;
 }
 
+/// A box whose upper edges are rounded by `r` in `k` chords, with sharp vertical ones: they fade where they go on in the
+/// mitres, up to the top.
+Part box_with_mitres(double a, double b, double height, double r, int k)
+{
+  std::vector<std::array<Vector_3, 4>> rings;
+  const auto add_ring = [&](double inwards, double z) {
+    const double x = a - inwards, y = b - inwards;
+    rings.push_back({Vector_3(x, y, z), Vector_3(-x, y, z), Vector_3(-x, -y, z), Vector_3(x, -y, z)});
+  };
+  add_ring(0, 0);
+  for (int j = 0; j <= k; ++j) {
+    const double angle = j * pi / (2 * k);
+    add_ring(r * (1 - std::cos(angle)), height - r * (1 - std::sin(angle)));
+  }
+  Part part;
+  for (std::size_t j = 0; j + 1 < rings.size(); ++j)
+    for (std::size_t i = 0; i < 4; ++i)
+      part.polygons.add({rings[j][i], rings[j][(i + 1) % 4], rings[j + 1][(i + 1) % 4], rings[j + 1][i]});
+  part.polygons.add({rings.back().begin(), rings.back().end()});
+  part.polygons.add({rings[0].rbegin(), rings[0].rend()});
+  part.distance = [=](const Vector_3& p) {
+    const double up = p[2] - height + r;
+    const auto rounded = [=](double out) {
+      return out > 0 && up > 0 ? std::hypot(out, up) - r : (std::max)(out, up) - r;
+    };
+    return (std::max)({rounded(std::abs(p[0]) - a + r), rounded(std::abs(p[1]) - b + r), -p[2]});
+  };
+  part.is_flat = [=](const Vector_3& p) { return p[2] < height - r - 1e-9; };
+  part.sag = r * (1 - std::cos(pi / (4 * k)));
+  part.size = (a + b) / 15;
+  return part;
+}
+
 std::vector<Variant> variants()
 {
   const Vector_3 none(0, 0, 0), far(500000, 5400000, 300);
@@ -990,6 +1023,24 @@ TEST(Cad_tessellations, of_pipes_that_touch_keep_the_edges_up_to_there)
     const Errors e = errors(part, input, adapted(input.soup, part.size));
     EXPECT_LE(e.largest, part.sag);
     EXPECT_LE(e.rms, 0.5 * part.sag);
+  }
+}
+
+TEST(Cad_tessellations, of_boxes_with_rounded_edges_keep_the_mitres_up_to_the_top)
+{
+  Random random(13);
+  for (int i = 0; i < 8; ++i) {
+    const double a = random.real(0.5, 2), b = random.real(0.5, 2), height = random.real(0.5, 2), r = random.real(0.1, 0.3);
+    const int k = 6 + int(random.below(12));
+    SCOPED_TRACE(std::to_string(a) + ", " + std::to_string(b) + ", " + std::to_string(r) + ", " + std::to_string(k));
+    const Part part = box_with_mitres(a, b, height, r, k);
+    const Variant variant{"", 0, false, i % 2 == 1, {0, 0, 0}, i % 4 < 2};
+    const Placed input = placed(part, variant, std::uint64_t(i));
+    EXPECT_EQ(number_of_ridges(input.soup), 8 + 4 * std::size_t(k));
+    const Errors e = errors(part, input, adapted(input.soup, part.size));
+    EXPECT_LE(e.flat, 20 * input.rounding);
+    EXPECT_LE(e.largest, 3 * part.sag); // at the last chord of a mitre, which says least of how it ends
+    EXPECT_LE(e.rms, 0.25 * part.sag);
   }
 }
 

@@ -57,14 +57,16 @@ public:
   }
 
   /// Whether the edge `last`, below the angle of ridges, fades in `h`: the surface turns less there, but not as it does
-  /// beside it.
-  bool fades_in(Index last, Index h) const
+  /// beside it. If it does, the edge `before` shall say that this is what is left of the turn at `last`; it may be
+  /// `no_index`.
+  bool fades_in(Index before, Index last, Index h) const
   {
     if (are_one(h)) return false;
     const Edge_section section(mesh_, points_, facets_, h);
-    const double turn_of_last = angle_between(facet(last).normal, facet(mesh_.twin[last]).normal);
-    return section.turn() < turn_of_last && section.turn() > least_turn_of_facets && !is_beside_sliver(section, h) &&
-           !turns_again(section, h, largest_turn_beside_fading, section.length()) &&
+    if (!(section.turn() < turn(last)) || !(section.turn() > least_turn_of_facets) || is_beside_sliver(section, h))
+      return false;
+    if (before != no_index && are_alike(section.turn(), turn_after(before, last, h), largest_error_of_fading)) return true;
+    return !turns_again(section, h, largest_turn_beside_fading, section.length()) &&
            !turns_again(section, mesh_.twin[h], largest_turn_beside_fading, section.length());
   }
 
@@ -77,6 +79,9 @@ public:
   }
 
 private:
+  /// Factor between the turn where an edge fades and what the edges before it say.
+  static constexpr double largest_error_of_fading = 1.5;
+
   /// A turn is a single one if the surface turns no more than this part of it again on either side; more may follow
   /// where it is known from the edges before it.
   static constexpr double largest_turn_again = 1.0 / 3, largest_turn_beside_fading = 2.0 / 3;
@@ -111,6 +116,15 @@ private:
   {
     constexpr double least_extent = 0.05;
     return (std::min)(section.length(h), section.length(mesh_.twin[h])) < least_extent * edge_length(h);
+  }
+
+  double turn(Index h) const { return angle_between(facet(h).normal, facet(mesh_.twin[h]).normal); }
+
+  /// The turn at the edge `h` behind `last` if it changes with the length as it does from `before` to `last`.
+  double turn_after(Index before, Index last, Index h) const
+  {
+    const double change = (turn(last) - turn(before)) / (edge_length(before) + edge_length(last));
+    return turn(last) + change * (edge_length(last) + edge_length(h));
   }
 
   double edge_length(Index h) const { return (points_[mesh_.target(h)] - points_[mesh_.source(h)]).norm(); }

@@ -201,11 +201,13 @@ private:
   {
     const Index last = end_of_ridge(v);
     if (last == no_index || is_ridge(last)) return no_index;
+    const Index before = end_of_ridge_before(last);
     Index straightest = no_index;
     double largest_cosine = cosine_of_fading;
     mesh_.for_each_outgoing(v, [&](Index h) {
       const double cosine = -cosine_between(h, last);
-      if (!(cosine > largest_cosine) || is_convex(h) != is_convex(last) || !facet_edges().fades_in(last, h)) return;
+      if (!(cosine > largest_cosine) || is_convex(h) != is_convex(last) || !facet_edges().fades_in(before, last, h))
+        return;
       largest_cosine = cosine;
       straightest = h;
     });
@@ -224,6 +226,19 @@ private:
       if (is_feature_[h] == ridge) last = h;
     });
     return degree == 1 && !mesh_.is_border_vertex(v) ? last : no_index;
+  }
+
+  /// The ridge that goes on from `last`, or `no_index`.
+  Index end_of_ridge_before(Index last) const
+  {
+    const Index v = mesh_.target(last);
+    Index before = no_index;
+    std::size_t degree = 0;
+    mesh_.for_each_outgoing(v, [&](Index h) {
+      degree += is_marked(h);
+      if (is_feature_[h] == ridge && mesh_.target(h) != mesh_.source(last)) before = h;
+    });
+    return degree == 2 && !mesh_.is_border_vertex(v) ? before : no_index;
   }
 
   double cosine_between(Index g, Index h) const
