@@ -199,9 +199,9 @@ private:
   /// Marks the edge in which a ridge that ends at `v` fades, and returns its other end, or `no_index` if there is none.
   Index extended(Index v)
   {
-    const Index last = end_of_ridge(v);
+    const Index last = other_ridge(v, no_index); // back from there
     if (last == no_index || is_ridge(last)) return no_index;
-    const Index before = end_of_ridge_before(last);
+    const Index before = other_ridge(mesh_.target(last), v);
     Index straightest = no_index;
     double largest_cosine = cosine_of_fading;
     mesh_.for_each_outgoing(v, [&](Index h) {
@@ -216,29 +216,18 @@ private:
     return mesh_.target(straightest);
   }
 
-  /// The halfedge back from `v` along the only feature edge there, if that is a ridge, and `v` not on the boundary.
-  Index end_of_ridge(Index v) const
+  /// The halfedge from `v` along the only feature edge there, but for one to the vertex `from`, if it is a ridge, and `v`
+  /// not on the boundary; else `no_index`.
+  Index other_ridge(Index v, Index from) const
   {
-    Index last = no_index;
+    Index other = no_index;
     std::size_t degree = 0;
     mesh_.for_each_outgoing(v, [&](Index h) {
-      degree += is_marked(h);
-      if (is_feature_[h] == ridge) last = h;
+      if (!is_marked(h) || mesh_.target(h) == from) return;
+      ++degree;
+      if (is_feature_[h] == ridge) other = h;
     });
-    return degree == 1 && !mesh_.is_border_vertex(v) ? last : no_index;
-  }
-
-  /// The ridge that goes on from `last`, or `no_index`.
-  Index end_of_ridge_before(Index last) const
-  {
-    const Index v = mesh_.target(last);
-    Index before = no_index;
-    std::size_t degree = 0;
-    mesh_.for_each_outgoing(v, [&](Index h) {
-      degree += is_marked(h);
-      if (is_feature_[h] == ridge && mesh_.target(h) != mesh_.source(last)) before = h;
-    });
-    return degree == 2 && !mesh_.is_border_vertex(v) ? before : no_index;
+    return degree == 1 && !mesh_.is_border_vertex(v) ? other : no_index;
   }
 
   double cosine_between(Index g, Index h) const

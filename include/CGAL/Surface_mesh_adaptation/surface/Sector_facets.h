@@ -211,7 +211,7 @@ private:
   static constexpr double least_sine = 0.01; // of a corner; less: it belongs to a sliver
   static constexpr double straight = 0.7;    // cosine: 45 degrees from straight on
   static constexpr double almost_across = 0.17; // cosine: 80 degrees; triangles may have no side any straighter
-  static constexpr double far_longer = 4;
+  static constexpr double far_longer = 4;       // times as long as it is
 
   /// Of the angle at the corner `c`; negative where it is reflex.
   double sine(const Corner& c) const
@@ -235,7 +235,7 @@ private:
   }
 
   /// How many times as long, squared, the right side of `corner` is as the one that goes on best across the vertex: 0 if
-  /// none does, and on creases. Inside, one far off straight on counts as far longer.
+  /// none does, and on creases. Inside, one that is more than 45 degrees off straight counts as far longer than it is.
   double squared_ratio_to_opposite(const Corner& corner) const
   {
     if (&corner == &corners_.front() && !is_closed_) return 0;
