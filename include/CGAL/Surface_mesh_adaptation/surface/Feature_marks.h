@@ -199,9 +199,9 @@ private:
   /// Marks the edge in which a ridge that ends at `v` fades, and returns its other end, or `no_index` if there is none.
   Index extended(Index v)
   {
-    const Index last = other_ridge(v, no_index); // back from there
+    const Index last = only_edge(v, ridge); // back from there
     if (last == no_index || is_ridge(last)) return no_index;
-    const Index before = other_ridge(mesh_.target(last), v);
+    const Index before = only_edge(mesh_.target(last), ridge, v);
     Index straightest = no_index;
     double largest_cosine = cosine_of_fading;
     mesh_.for_each_outgoing(v, [&](Index h) {
@@ -216,18 +216,18 @@ private:
     return mesh_.target(straightest);
   }
 
-  /// The halfedge from `v` along the only feature edge there, but for one to the vertex `from`, if it is a ridge, and `v`
-  /// not on the boundary; else `no_index`.
-  Index other_ridge(Index v, Index from) const
+  /// The halfedge from `v` along the only feature edge there, but for one to the vertex `from`, if it has the mark `mark`;
+  /// else `no_index`, as on the boundary.
+  Index only_edge(Index v, Mark mark, Index from = no_index) const
   {
-    Index other = no_index;
+    Index only = no_index;
     std::size_t degree = 0;
     mesh_.for_each_outgoing(v, [&](Index h) {
       if (!is_marked(h) || mesh_.target(h) == from) return;
       ++degree;
-      if (is_feature_[h] == ridge) other = h;
+      only = is_feature_[h] == mark ? h : no_index;
     });
-    return degree == 1 && !mesh_.is_border_vertex(v) ? other : no_index;
+    return degree == 1 ? only : no_index;
   }
 
   double cosine_between(Index g, Index h) const
@@ -259,15 +259,10 @@ private:
   /// there is none.
   Index retracted(Index v)
   {
-    Index other = no_index;
-    std::size_t degree = 0;
-    for_each_neighbor(v, [&](Index w, std::uint8_t mark) {
-      ++degree;
-      other = mark == smooth ? w : no_index;
-    });
-    if (degree != 1 || other == no_index) return no_index;
-    set_mark(mesh_.any_halfedge(v, other), none);
-    return other;
+    const Index last = only_edge(v, smooth);
+    if (last == no_index) return no_index;
+    set_mark(last, none);
+    return mesh_.target(last);
   }
 
   /// Folds are noise rather than shapes, and their normals mean nothing: that of the face behind the longest edge, on

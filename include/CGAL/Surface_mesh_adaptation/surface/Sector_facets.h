@@ -109,11 +109,14 @@ public:
   Vector_3 normal() const
   {
     Vector_3 n = weighted_normal();
-    double largest2 = 0;
-    for (const Corner& c : corners_) largest2 = (std::max)(largest2, squared_ratio_to_opposite(c));
+    Ring<double> ratio2;
+    for (const Corner& c : corners_) ratio2.push_back(squared_ratio_to_opposite(c));
+    const double largest2 = *std::max_element(ratio2.begin(), ratio2.end());
     const double least2 = (std::max)(squared(largest_ratio_of_sides), squared(least_part_of_straightest) * largest2);
-    for (const Corner& c : corners_)
-      if (squared_ratio_to_opposite(c) > least2) n -= n.dot(c.right) / c.right.squaredNorm() * c.right;
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      const Vector_3& d = corners_[i].right;
+      if (ratio2[i] > least2) n -= n.dot(d) / d.squaredNorm() * d;
+    }
     return n.squaredNorm() > 0 ? Vector_3(n.normalized()) : n;
   }
 
