@@ -109,9 +109,12 @@ public:
   Vector_3 normal() const
   {
     Vector_3 n = weighted_normal();
+    double largest2 = 0;
     Ring<double> ratio2;
-    for (const Corner& c : corners_) ratio2.push_back(squared_ratio_to_opposite(c));
-    const double largest2 = *std::max_element(ratio2.begin(), ratio2.end());
+    for (const Corner& c : corners_) {
+      ratio2.push_back(squared_ratio_to_opposite(c));
+      largest2 = (std::max)(largest2, ratio2.back());
+    }
     const double least2 = (std::max)(squared(largest_ratio_of_sides), squared(least_part_of_straightest) * largest2);
     for (std::size_t i = 0; i < corners_.size(); ++i) {
       const Vector_3& d = corners_[i].right;
