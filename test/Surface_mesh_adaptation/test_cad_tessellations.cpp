@@ -687,6 +687,21 @@ Part cut_cylinder(Random& random, double length, double slope, std::size_t n, st
   return part;
 }
 
+/// Triangles between two curves from one point to another one, with vertices at angles of their own.
+template <class Right, class Left>
+void add_lune(Polygons& polygons, const std::vector<double>& right, const std::vector<double>& left, const Right& at_right,
+              const Left& at_left)
+{
+  polygons.add({at_right(right[0]), at_right(right[1]), at_left(left[1])});
+  for (std::size_t i = 1, j = 1; i + 2 < right.size() || j + 2 < left.size();) {
+    const Vector_3 a = at_right(right[i]), b = at_left(left[j]);
+    const bool is_right = j + 2 == left.size() || (i + 2 < right.size() && right[i + 1] < left[j + 1]);
+    if (is_right) polygons.add({a, at_right(right[++i]), b});
+    else polygons.add({a, at_left(left[++j]), b});
+  }
+  polygons.add({at_right(right[right.size() - 2]), at_right(right.back()), at_left(left[left.size() - 2])});
+}
+
 /// Two pipes of radius 1 along the z and the x axis, with ends at a distance of `length`: where they touch, the edges
 /// between them fade. These have `k` chords on either side of there, the ends `m` vertices.
 Part crossing_pipes(Random& random, double length, std::size_t k, std::size_t m)
@@ -723,6 +738,36 @@ Part crossing_pipes(Random& random, double length, std::size_t k, std::size_t m)
   part.is_flat = [=](const Vector_3& p) { return (std::max)(std::abs(p[0]), std::abs(p[2])) > length - 1e-9; };
   part.sag = 1 - std::cos(1.4 * pi / double((std::min)(2 * k, m)));
   part.size = 0.15;
+  return part;
+}
+
+/// What two pipes of radius 1 along the z and the x axis have in common: four pieces of cylinders between the poles on the
+/// y axis, where the edges between them fade to nothing. These have about `k` chords each, at angles of their own, and no
+/// two triangles are in one plane.
+Part common_of_pipes(Random& random, std::size_t k)
+{
+  std::array<std::vector<double>, 4> edges; // angles from pole to pole
+  for (std::vector<double>& edge : edges) {
+    const std::size_t n = k + random.below(k / 4);
+    for (std::size_t i = 0; i <= n; ++i)
+      edge.push_back((double(i) + (i % n == 0 ? 0 : random.real(-0.2, 0.2))) / double(n) * pi - pi / 2);
+  }
+  Part part;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto at = [](std::size_t edge, double angle) -> Vector_3 {
+      const double x = edge == 0 || edge == 3 ? 1 : -1, z = edge < 2 ? 1 : -1;
+      if (std::abs(angle) > pi / 2 - 1e-9) return {0, angle > 0 ? 1.0 : -1.0, 0}; // one point for all
+      return {x * std::cos(angle), std::sin(angle), z * std::cos(angle)};
+    };
+    add_lune(part.polygons, edges[i], edges[(i + 1) % 4], [&](double angle) { return at(i, angle); },
+             [&](double angle) { return at((i + 1) % 4, angle); });
+  }
+  part.distance = [](const Vector_3& p) {
+    return (std::max)(std::hypot(p[0], p[1]), std::hypot(p[1], p[2])) - 1;
+  };
+  part.is_flat = [](const Vector_3&) { return false; };
+  part.sag = 1 - std::cos(0.7 * pi / double(k));
+  part.size = 0.1;
   return part;
 }
 
@@ -1031,6 +1076,18 @@ TEST(Cad_tessellations, of_pipes_that_touch_keep_the_edges_up_to_there)
     const Part part = crossing_pipes(random, length, k, m);
     const Placed input = placed_in_turn(part, i);
     EXPECT_EQ(number_of_ridges(input.soup), 4 * (k + m));
+    expect_near(part, input, {1, 0.5});
+  }
+}
+
+TEST(Cad_tessellations, of_what_two_pipes_have_in_common_keep_the_edges_up_to_the_poles)
+{
+  Random random(14);
+  for (int i = 0; i < 8; ++i) {
+    const std::size_t k = 20 + random.below(40);
+    SCOPED_TRACE(k);
+    const Part part = common_of_pipes(random, k);
+    const Placed input = placed_in_turn(part, i);
     expect_near(part, input, {1, 0.5});
   }
 }

@@ -74,7 +74,10 @@ void round_to_points(const Any_execution& execution, Surface& surface)
 {
   if constexpr (std::is_same_v<std::decay_t<decltype(std::declval<Point>().x())>, float>)
     for_each_index(execution, surface.points.size(), [&](std::size_t v) {
-      for (double& x : surface.points[v]) x = float(x);
+      for (double& x : surface.points[v]) {
+        const volatile float rounded = float(x); // else GCC 12 leaves it out for some, where it makes vectors of them
+        x = rounded;
+      }
     });
 }
 

@@ -56,15 +56,19 @@ public:
     return is_straight_beside(section, h, h) && is_straight_beside(section, h, t);
   }
 
-  /// Whether the edge `last`, below the angle of ridges, fades in `h`: the surface turns less there, but not as it does
-  /// beside it. If it does, the edge `before` shall say that this is what is left of the turn at `last`; it may be
-  /// `no_index`.
-  bool fades_in(Index before, Index last, Index h) const
+  /// Whether the edge `last`, below the angle of ridges, may fade in `h`: the surface turns there, but less.
+  bool turns_less(Index last, Index h) const
   {
     if (are_one(h)) return false;
     const Edge_section section(mesh_, points_, facets_, h);
-    if (!(section.turn() < turn(last)) || !(section.turn() > least_turn_of_facets) || is_beside_sliver(section, h))
-      return false;
+    return section.turn() < turn(last) && section.turn() > least_turn_of_facets && !is_beside_sliver(section, h);
+  }
+
+  /// Whether it does: the surface does not turn beside `h` as it does there, or the edge `before` says that this is what
+  /// is left of the turn at `last`; it may be `no_index`.
+  bool fades_in(Index before, Index last, Index h) const
+  {
+    const Edge_section section(mesh_, points_, facets_, h);
     if (before != no_index && are_alike(section.turn(), turn_after(before, last, h), largest_error_of_fading)) return true;
     return !turns_again(section, h, largest_turn_beside_fading, section.length()) &&
            !turns_again(section, mesh_.twin[h], largest_turn_beside_fading, section.length());

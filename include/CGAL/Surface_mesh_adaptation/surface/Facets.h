@@ -165,12 +165,16 @@ public:
   }
 
 private:
-  // Of faces with a coplanar neighbour: scans and the like have far fewer, crossing pipes, all needles, some.
+  // Of faces with a coplanar neighbour: scans and the like have far fewer, crossing pipes, all needles, some or none.
   static constexpr double least_share = 0.25, usual_share = 0.4, least_share_of_area = 0.5;
 
   static constexpr double largest_share_inside = 0.3; // of vertices; CAD systems put next to none there
 
   static constexpr double least_quality_of_meshers = 0.6; // of their triangles; facets cut into more of these have .3
+
+  /// Mean quality of triangles that reach across faces of the shape, as those of no scan do, if such a share of their
+  /// corners is on edges that turn by this, 45 degrees.
+  static constexpr double largest_quality_of_needles = 0.3, least_share_on_creases = 0.5, least_turn_of_creases = 0.785;
 
   /// Whether enough of the faces have a coplanar neighbour: of their number, or of their area where these are few and
   /// large.
@@ -184,7 +188,26 @@ private:
     }, [](const Sums& a, const Sums& b) -> Sums { return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]}; });
     const double share = sums[0] / sums[2];
     if (share >= usual_share || sums[1] >= least_share_of_area * sums[3]) return true;
-    return share >= least_share && mean_quality(execution) <= least_quality_of_meshers;
+    const double quality = mean_quality(execution);
+    return (share >= least_share && quality <= least_quality_of_meshers) ||
+           (quality <= largest_quality_of_needles && share_on_creases(execution) >= least_share_on_creases);
+  }
+
+  /// Of the vertices, those on edges where the surface ends or turns sharply.
+  template <class Execution>
+  double share_on_creases(const Execution& execution) const
+  {
+    return double(count_if(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
+      bool result = mesh_.is_border_vertex(Index(v));
+      mesh_.for_each_outgoing(Index(v), [&](Index h) { result = result || is_crease(h); });
+      return result;
+    })) / double(mesh_.number_of_vertices());
+  }
+
+  bool is_crease(Index h) const
+  {
+    return !mesh_.is_border(h) && angle_between(face_normal(mesh_, points_, h),
+                                               face_normal(mesh_, points_, mesh_.twin[h])) > least_turn_of_creases;
   }
 
   /// Of the triangles: 1 if they are equilateral.

@@ -192,11 +192,21 @@ private:
   {
     mark_all(execution, ridge, [&](Index h) { return facet_edges().ends_plane(h); });
     mark_all(execution, ridge, [&](Index h) { return facet_edges().is_single_turn(h); });
-    for (const Index v : vertices_on_features(execution))
-      for (Index w = v; w != no_index;) w = extended(w);
+    while (extend_ridges(execution)) {}
   }
 
-  /// Marks the edge in which a ridge that ends at `v` fades, and returns its other end, or `no_index` if there is none.
+  /// Returns whether any was extended. What is on a feature then may be what another one lacks.
+  template <class Execution>
+  bool extend_ridges(const Execution& execution)
+  {
+    bool result = false;
+    for (const Index v : vertices_on_features(execution))
+      for (Index w = extended(v); w != no_index; w = extended(w)) result = true;
+    return result;
+  }
+
+  /// Marks the edge in which a ridge that ends at `v` fades, or which is all that it lacks to the next feature, and
+  /// returns its other end, or `no_index` if there is none.
   Index extended(Index v)
   {
     const Index last = only_edge(v, ridge); // back from there
@@ -206,8 +216,8 @@ private:
     double largest_cosine = cosine_of_fading;
     mesh_.for_each_outgoing(v, [&](Index h) {
       const double cosine = -cosine_between(h, last);
-      if (!(cosine > largest_cosine) || is_convex(h) != is_convex(last) || !facet_edges().fades_in(before, last, h))
-        return;
+      if (!(cosine > largest_cosine) || is_convex(h) != is_convex(last) || !facet_edges().turns_less(last, h)) return;
+      if (degree(mesh_.target(h)) == 0 && !facet_edges().fades_in(before, last, h)) return;
       largest_cosine = cosine;
       straightest = h;
     });

@@ -87,21 +87,20 @@ public:
     return true;
   }
 
-  /// The unit direction along which the surface is straight, nearly: the mean of that of their sides, where all reach
-  /// from one crease to another and are chords of nothing that bends along them as it does across. Zero elsewhere.
+  /// A unit vector along which the surface is straight, nearly: the mean of their sides, turned one way, where all reach
+  /// from one crease to another, and are parallel enough to say one. Those of polygons are that where the surface bends
+  /// along them less than across; beside triangles, what polygons there are know their normals better. Zero elsewhere.
   Vector_3 ruling() const
   {
-    Vector_3 sum = Vector_3::Zero();
-    if (!is_between_creases_) return sum;
-    double shortest = std::numeric_limits<double>::infinity(), width = 0;
-    for (std::size_t i = 1; i < corners_.size(); ++i) {
-      const double length = corners_[i].right.norm();
-      sum += corners_[i].right / length;
-      shortest = (std::min)(shortest, length);
-      width += (facet(corners_[i - 1]).area + facet(corners_[i]).area) / (2 * length);
-    }
-    const double turn = angle_between(facet(corners_.front()).normal, facet(corners_.back()).normal);
-    return turn * shortest > largest_turn_of_chords * width ? Vector_3(sum.normalized()) : Vector_3::Zero();
+    if (!is_between_creases_ || (has_polygon() && !(has_only_polygons() && bends_across()))) return Vector_3::Zero();
+    Vector_3 mean = Vector_3::Zero();
+    for (std::size_t i = 1; i < corners_.size(); ++i)
+      mean += corners_[i].right.normalized() * (corners_[i].right.dot(corners_[1].right) < 0 ? -1 : 1);
+    mean.normalize();
+    const bool are_parallel = std::all_of(corners_.begin() + 1, corners_.end(), [&](const Corner& c) {
+      return std::abs(c.right.dot(mean)) > least_cosine_of_rulings * c.right.norm();
+    });
+    return are_parallel ? mean : Vector_3(Vector_3::Zero());
   }
 
   /// The mean of their normals with the weights of Max for whole facets, made orthogonal to sides that are too long to
@@ -133,6 +132,9 @@ private:
   /// In radians: a surface that bends alike in all directions turns by less over one chord.
   static constexpr double largest_turn_of_chords = 1;
 
+  /// Of the angle, 30 degrees, between rulings at one vertex and their mean: facets between them are longer than wide.
+  static constexpr double least_cosine_of_rulings = 0.866;
+
   static double squared(double x) { return x * x; }
 
   struct Corner
@@ -152,6 +154,24 @@ private:
     for (std::size_t i = 0; i < n; ++i, h = mesh.rotated_ccw(h))
       if (!facets_.are_one(Mesh_view::face(h), Mesh_view::face(mesh.twin[h]))) return h;
     return first;
+  }
+
+  bool has_only_polygons() const
+  {
+    return std::all_of(corners_.begin(), corners_.end(), [&](const Corner& c) { return facet(c).faces > 1; });
+  }
+
+  /// Whether their sides are chords of nothing that bends along them as it does across.
+  bool bends_across() const
+  {
+    double shortest = std::numeric_limits<double>::infinity(), width = 0;
+    for (std::size_t i = 1; i < corners_.size(); ++i) {
+      const double length = corners_[i].right.norm();
+      shortest = (std::min)(shortest, length);
+      width += (facet(corners_[i - 1]).area + facet(corners_[i]).area) / (2 * length);
+    }
+    const double turn = angle_between(facet(corners_.front()).normal, facet(corners_.back()).normal);
+    return turn * shortest > largest_turn_of_chords * width;
   }
 
   /// Whether all sides between the facets of an open sector end where `is_end(vertex, side)`: on creases, say, or where
