@@ -115,6 +115,7 @@ protected:
     std::vector<char*> argv = {const_cast<char*>("adapt_mesh")};
     for (std::string& a : arguments) argv.push_back(a.data());
     argv.push_back(nullptr);
+    std::signal(SIGINT, SIG_DFL); // which what a shell runs in the background ignores
     if (::chdir(folder_.c_str()) == 0 && std::freopen(".out", "w", stdout) && std::freopen(".err", "w", stderr))
       ::execv(ADAPT_MESH, argv.data());
     ::_exit(127);
