@@ -1027,6 +1027,22 @@ TEST(Cad_tessellations, of_shafts_have_four_circles_of_creases)
     }
 }
 
+/// Chords take a bit of the 45 degrees at the circles of a cone.
+TEST(Cad_tessellations, of_pins_with_chamfered_ends_keep_all_circles)
+{
+  Random random(15);
+  for (int i = 0; i < 8; ++i) {
+    const double chamfer = random.real(0.1, 0.3), length = random.real(1, 3);
+    const std::size_t n = 12 + random.below(50);
+    SCOPED_TRACE(std::to_string(chamfer) + ", " + std::to_string(length) + ", " + std::to_string(n));
+    const Part part = turned({{1 - chamfer, 0}, {1, chamfer}, {1, chamfer + length}, {1 - chamfer, 2 * chamfer + length}}, {},
+                             n, 1);
+    const Placed input = placed_in_turn(part, i);
+    EXPECT_EQ(number_of_ridges(input.soup), 4 * n);
+    expect_near(part, input, {0.5, 0.25});
+  }
+}
+
 TEST(Cad_tessellations, of_boxes_with_chamfered_edges_keep_all_of_them)
 {
   Random random(7);

@@ -32,7 +32,7 @@ public:
     : mesh_(mesh), points_(points), facets_(facets), marks_(marks)
   {}
 
-  /// Whether a plane ends in an edge at `h`.
+  /// Whether a plane ends in an edge at `h`: beside a row by the turn of that, beside what is like nothing else by its own.
   bool ends_plane(Index h) const
   {
     const Facet &f = facet(h), &g = facet(mesh_.twin[h]);
@@ -40,8 +40,9 @@ public:
     const double turn = angle_between(f.normal, g.normal);
     if (f.is_plane && g.is_plane) return turn > least_turn_between_planes;
     const Facet& curved = f.is_plane ? g : f;
-    if (curved.faces == 1) return turn > usual_turn_of_triangles && !turns_more_behind(f.is_plane ? mesh_.twin[h] : h);
-    return curved.turn > 0 && turn > curved.turn + least_turn_beside_rows;
+    const bool is_of_row = curved.faces > 1 && curved.turn > 0;
+    if (is_of_row) return turn > curved.turn + least_turn_beside_rows;
+    return turn > usual_turn_of_triangles && !turns_more_behind(f.is_plane ? mesh_.twin[h] : h);
   }
 
   /// Whether the surface turns at `h` and next to it on neither side again alike: from one row of strips to another

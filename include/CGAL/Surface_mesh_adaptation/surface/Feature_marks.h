@@ -45,6 +45,12 @@ constexpr double cosine_of_fading = 0.866;
 /// of one. On scans and meshes of a mesher no angle is meant exactly.
 constexpr double rounding_of_angles = 0.01;
 
+/// In degrees: chords of a circle, of 30 degrees and less, take so much of the angle of a chamfer along it.
+constexpr double loss_to_chords = 1;
+
+/// What goes on behind a ridge, and turns by no less than this part of the angle of ridges, is one as well.
+constexpr double least_part_of_ridge = 0.9;
+
 /// Whoever asks for ridges from this angle on, in degrees, wants no edges between planes either.
 constexpr double largest_angle_for_planes = 90;
 
@@ -63,11 +69,14 @@ public:
   Feature_marks(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
                 const Feature_parameters& parameters)
     : mesh_(mesh), points_(points), parameters_(parameters), facets_(find_facets(execution, mesh, points))
-    , cosine_of_ridge_(cosine_of_ridge(0)), cosine_below_(cosine_of_ridge(-rounding_of_angles))
+    , cosine_of_ridge_(cosine_of_ridge(0)), cosine_below_(cosine_of_ridge(-loss_to_chords))
     , cosine_above_(cosine_of_ridge(rounding_of_angles))
+    , cosine_behind_ridge_(cosine_of_ridge((least_part_of_ridge - 1) * parameters.ridge_angle))
     , is_feature_(mesh.number_of_halfedges(), 0)
   {
     mark_feature_edges(execution);
+    if (finds_edges_of_facets())
+      while (extend_ridges(execution, [&](Index last, Index h) { return is_almost_ridge(last) && is_almost_ridge(h); })) {}
     if (!facets_.empty()) find_planes(mesh, points, [&](Index h) { return !is_marked(h); }, facets_);
     if (finds_edges_of_facets()) mark_edges_of_facets(execution);
     if (parameters.detect_ridges) {
@@ -192,38 +201,54 @@ private:
   {
     mark_all(execution, ridge, [&](Index h) { return facet_edges().ends_plane(h); });
     mark_all(execution, ridge, [&](Index h) { return facet_edges().is_single_turn(h); });
-    while (extend_ridges(execution)) {}
+    while (extend_ridges(execution, [&](Index last, Index h) { return fades_in(last, h); })) {}
   }
 
-  /// Returns whether any was extended. What is on a feature then may be what another one lacks.
-  template <class Execution>
-  bool extend_ridges(const Execution& execution)
+  /// Extends ridges that end by edges for which `goes_on(last, h)`, and returns whether there were any. What is on a
+  /// feature then may be what another one lacks.
+  template <class Execution, class Goes_on>
+  bool extend_ridges(const Execution& execution, const Goes_on& goes_on)
   {
     bool result = false;
     for (const Index v : vertices_on_features(execution))
-      for (Index w = extended(v); w != no_index; w = extended(w)) result = true;
+      for (Index w = extended(v, goes_on); w != no_index; w = extended(w, goes_on)) result = true;
     return result;
   }
 
-  /// Marks the edge in which a ridge that ends at `v` fades, or which is all that it lacks to the next feature, and
-  /// returns its other end, or `no_index` if there is none.
-  Index extended(Index v)
+  /// Marks the edge by which the ridge that ends at `v` goes on straight, and returns its other end, or `no_index` if
+  /// there is none.
+  template <class Goes_on>
+  Index extended(Index v, const Goes_on& goes_on)
   {
     const Index last = only_edge(v, ridge); // back from there
-    if (last == no_index || is_ridge(last)) return no_index;
-    const Index before = only_edge(mesh_.target(last), ridge, v);
+    if (last == no_index) return no_index;
     Index straightest = no_index;
     double largest_cosine = cosine_of_fading;
     mesh_.for_each_outgoing(v, [&](Index h) {
       const double cosine = -cosine_between(h, last);
-      if (!(cosine > largest_cosine) || is_convex(h) != is_convex(last) || !facet_edges().turns_less(last, h)) return;
-      if (degree(mesh_.target(h)) == 0 && !facet_edges().fades_in(before, last, h)) return;
+      if (!(cosine > largest_cosine) || is_convex(h) != is_convex(last) || !goes_on(last, h)) return;
       largest_cosine = cosine;
       straightest = h;
     });
     if (straightest == no_index) return no_index;
     set_mark(straightest, ridge);
     return mesh_.target(straightest);
+  }
+
+  /// Whether the ridge that ends in `last` fades in `h`, or `h` is all that it lacks to the next feature.
+  bool fades_in(Index last, Index h) const
+  {
+    if (is_ridge(last) || !facet_edges().turns_less(last, h)) return false;
+    const Index before = only_edge(mesh_.target(last), ridge, mesh_.source(last));
+    return degree(mesh_.target(h)) > 0 || facet_edges().fades_in(before, last, h);
+  }
+
+  /// Whether `h` is a ridge, or what chords have left of one. Facets that are as large as each other bend.
+  bool is_almost_ridge(Index h) const
+  {
+    const Index f = Mesh_view::face(h), g = Mesh_view::face(mesh_.twin[h]);
+    return !facets_.are_one(f, g) && !are_regular(f, g) &&
+           facets_.at(f).normal.dot(facets_.at(g).normal) < cosine_behind_ridge_;
   }
 
   /// The halfedge from `v` along the only feature edge there, but for one to the vertex `from`, if it has the mark `mark`;
@@ -408,7 +433,8 @@ private:
   const std::vector<Vector_3>& points_;
   const Feature_parameters& parameters_;
   Facets facets_;
-  double cosine_of_ridge_, cosine_below_, cosine_above_; // of the angle, and on both sides of what rounding makes of it
+  double cosine_of_ridge_, cosine_below_, cosine_above_; // of the angle, and on both sides of what may have become of it
+  double cosine_behind_ridge_;
   std::vector<std::uint8_t> is_feature_;
 };
 
