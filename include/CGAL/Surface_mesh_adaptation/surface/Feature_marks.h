@@ -45,7 +45,7 @@ constexpr double cosine_of_fading = 0.866;
 /// of one. On scans and meshes of a mesher no angle is meant exactly.
 constexpr double rounding_of_angles = 0.01;
 
-/// In degrees: chords of a circle, of 30 degrees and less, take so much of the angle of a chamfer along it.
+/// In degrees: chords of a circle take so much of the angle of a chamfer along it, from twelve on.
 constexpr double loss_to_chords = 1;
 
 /// What goes on behind a ridge, and turns by no less than this part of the angle of ridges, is one as well.
@@ -69,7 +69,8 @@ public:
   Feature_marks(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
                 const Feature_parameters& parameters)
     : mesh_(mesh), points_(points), parameters_(parameters), facets_(find_facets(execution, mesh, points))
-    , cosine_of_ridge_(cosine_of_ridge(0)), cosine_below_(cosine_of_ridge(-loss_to_chords))
+    , cosine_of_ridge_(cosine_of_ridge(0))
+    , cosine_below_(cosine_of_ridge(facets_.are_chords() ? -loss_to_chords : -rounding_of_angles))
     , cosine_above_(cosine_of_ridge(rounding_of_angles))
     , cosine_behind_ridge_(cosine_of_ridge((least_part_of_ridge - 1) * parameters.ridge_angle))
     , is_feature_(mesh.number_of_halfedges(), 0)
