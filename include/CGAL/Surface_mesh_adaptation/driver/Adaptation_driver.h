@@ -176,7 +176,7 @@ private:
       (std::max)(deviations.allowed(), deviations.nth_largest(std::size_t(left / vertices_of_correction)));
     work_where(surface_.tighten_metric(execution_, size_factors(deviations, bound), limits_of_deviation()));
     if (extent_ == 0) return false;
-    do_rounds(1, current());
+    do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
     refinement_.compact();
     return true;
   }
