@@ -441,7 +441,7 @@ private:
   static constexpr double largest_scale = 1.2;           // of the metric meanwhile, its logarithm: lengths by 1.8
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
-  static constexpr int max_corrections_of_deviation = 4;
+  static constexpr int max_corrections_of_deviation = 8;
   static constexpr int max_corrections_of_intersections = 6;
   static constexpr double least_factor_of_deviation = 1.0 / 3; // where a third is not enough, sizes are not what is missing
   static constexpr Limits_of_tightening limits_at_gaps{1.0 / 32, 0, default_gradation}; // gaps are as narrow as they like
