@@ -4,6 +4,7 @@
 
 #include "analytic_surfaces.h"
 #include "distances.h"
+#include "near_sheets.h"
 #include "policies.h"
 #include "shape_meshes.h"
 #include "shapes.h"
@@ -204,6 +205,23 @@ TEST(Tolerance_of_curvature, is_nearer_in_an_anisotropic_metric_too)
   SMA::adapt_surface_mesh(sequential, before, sizes);
   EXPECT_LT(largest_distance(mesh, torus), 0.9 * largest_distance(before, torus));
   EXPECT_LE(double(mesh.number_of_vertices()), 1.4 * double(before.number_of_vertices()));
+}
+
+/// Edges fit the tightened metric as well as they fit that which is not tightened.
+TEST(Tolerance_of_curvature, costs_no_conformity)
+{
+  Random random(3);
+  const Soup bumpy = near_sheets::bumpy_sphere(random);
+  for (const bool anisotropic : {false, true})
+    for (const Soup& soup : {Torus().coarse_mesh(3), Ellipsoid().coarse_mesh(4), bumpy}) {
+      SMA::Curvature_metric_field field(0.001);
+      field.anisotropic = anisotropic;
+      const SMA::Intersection_metric_field<SMA::Curvature_metric_field> sizes(field);
+      Mesh mesh = shapes::mesh<Mesh>(soup), before = mesh;
+      const double without = SMA::adapt_surface_mesh(sequential, before, sizes).final.in_range;
+      const SMA::Adaptation_report report = SMA::adapt_surface_mesh(sequential, mesh, field);
+      EXPECT_GT(report.final.in_range, without - 0.003) << anisotropic;
+    }
 }
 
 TEST(Tolerance_of_curvature, gives_the_same_bits_with_every_policy)
