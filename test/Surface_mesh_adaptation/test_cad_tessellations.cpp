@@ -1372,6 +1372,34 @@ TEST(Cad_tessellations, of_plates_with_tight_corners_are_coarse_inside)
   }
 }
 
+/// A stretched ball, some of whose triangles have a further vertex inside.
+Soup ellipsoid_with_flat_stars(Random& random)
+{
+  Soup soup = shapes::sphere(3, 0.3);
+  for (Vector_3& p : soup.points) p[2] *= 6;
+  for (std::size_t f = 0, n = soup.triangles.size(); f < n; ++f) {
+    if (random.real(0, 1) > 0.13) continue;
+    const auto t = soup.triangles[f];
+    const auto v = SMA::Index(soup.points.size());
+    soup.points.push_back((soup.points[t[0]] + soup.points[t[1]] + soup.points[t[2]]) / 3);
+    soup.triangles[f] = {t[0], t[1], v};
+    soup.triangles.push_back({t[1], t[2], v});
+    soup.triangles.push_back({t[2], t[0], v});
+  }
+  return soup;
+}
+
+/// Flat places alone make no tessellation: the triangles of one reach from edge to edge.
+TEST(Cad_tessellations, are_not_scans_with_some_flat_places)
+{
+  Random random(4);
+  for (int i = 0; i < 8; ++i) {
+    const Soup soup = ellipsoid_with_flat_stars(random);
+    SMA::Mesh_view mesh = shapes::view(soup);
+    EXPECT_TRUE(SMA::detect_features(sequential, mesh, soup.points, SMA::Feature_parameters()).facets.empty()) << i;
+  }
+}
+
 TEST(Cad_tessellations, whose_smooth_surface_leaves_them_by_several_tolerances_are_warned_of)
 {
   const auto warnings = [](int k) {

@@ -172,8 +172,8 @@ private:
 
   static constexpr double least_quality_of_meshers = 0.6; // of their triangles; facets cut into more of these have .3
 
-  /// Mean quality of triangles that reach across faces of the shape, as those of no scan do, if such a share of their
-  /// corners is on edges that turn by this, 45 degrees.
+  /// Mean quality of triangles that reach across faces of the shape, as those of no scan do. Such a share of their corners is
+  /// on edges that turn by this, 45 degrees.
   static constexpr double largest_quality_of_needles = 0.3, least_share_on_creases = 0.5, least_turn_of_creases = 0.785;
 
   /// Whether enough of the faces have a coplanar neighbour: of their number, or of their area where these are few and
@@ -188,9 +188,8 @@ private:
     }, [](const Sums& a, const Sums& b) -> Sums { return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]}; });
     const double share = sums[0] / sums[2];
     if (share >= usual_share || sums[1] >= least_share_of_area * sums[3]) return true;
-    const double quality = mean_quality(execution);
-    return (share >= least_share && quality <= least_quality_of_meshers) ||
-           (quality <= largest_quality_of_needles && share_on_creases(execution) >= least_share_on_creases);
+    const double largest_quality = share >= least_share ? least_quality_of_meshers : largest_quality_of_needles;
+    return mean_quality(execution) <= largest_quality && share_on_creases(execution) >= least_share_on_creases;
   }
 
   /// Of the vertices, those on edges where the surface ends or turns sharply.
