@@ -195,7 +195,7 @@ private:
       if (factors.empty()) break; // sizes cannot part them
       work_where(surface_.tighten_metric(execution_, factors, limits_at_gaps));
       if (extent_ == 0) break;
-      do_rounds(rounds_of_correction, current());
+      do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
       refinement_.compact();
       is_parted_ = true;
     }
@@ -292,9 +292,7 @@ private:
   /// Whether much of the mesh is far too fine, and nothing keeps vertices from the patches meanwhile.
   bool may_be_on_facets() const
   {
-    bool is_guarded = bool(surface_.tolerance);
-    if constexpr (Surface::avoids_intersections) is_guarded = is_guarded || surface_.intersections != nullptr;
-    return !is_guarded && report_.initial.mean_length < min_unit_length;
+    return !surface_.tolerance && report_.initial.mean_length < min_unit_length;
   }
 
   void leave_facets()
