@@ -186,9 +186,11 @@ private:
   void part_faces()
   {
     internal::Self_intersection_guard& guard = *surface_.intersections;
+    std::size_t at_first = 0;
     for (int i = 0; i < max_corrections_of_intersections && !report_.stopped; ++i) {
       const std::vector<Face_pair> pairs = guard.new_pairs(execution_, surface_);
-      if (pairs.empty()) break;
+      if (i == 0) at_first = pairs.size();
+      if (pairs.empty() || (i == corrections_for_half && 2 * pairs.size() > at_first)) break;
       guard.find_gaps(execution_, surface_);
       if (i == 0) surface_.bound_distance(execution_, guard.bounds_at_vertices(execution_));
       const std::vector<double> factors = guard.size_factors(execution_, surface_, pairs);
@@ -441,6 +443,7 @@ private:
   static constexpr std::size_t rounds_of_correction = 3;
   static constexpr int max_corrections_of_deviation = 8;
   static constexpr int max_corrections_of_intersections = 6;
+  static constexpr int corrections_for_half = 3; // of the pairs to vanish: else sizes do not part them
   static constexpr double least_factor_of_deviation = 1.0 / 3; // where a third is not enough, sizes are not what is missing
   static constexpr Limits_of_tightening limits_at_gaps{1.0 / 32, 0, default_gradation}; // gaps are as narrow as they like
   static constexpr double safety_of_deviation = 0.9;     // once one is missed
