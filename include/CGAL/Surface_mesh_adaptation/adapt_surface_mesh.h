@@ -141,7 +141,7 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNEnd
   \cgalParamNBegin{feature_angle}
     \cgalParamDescription{an edge is a ridge if the normals of its faces differ by more than this; in CAD tessellations by as
-                          much, to a hundredth of a degree, but between facets as large as each other}
+                          much, to one degree, but between facets as large as each other}
     \cgalParamType{`double`, in degrees, above 0 and up to 180}
     \cgalParamDefault{`45`}
   \cgalParamNEnd
