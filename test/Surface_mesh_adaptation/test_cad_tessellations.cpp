@@ -1108,6 +1108,65 @@ TEST(Cad_tessellations, of_what_two_pipes_have_in_common_keep_the_edges_up_to_th
   }
 }
 
+/// A bar with `k` sides, turned by `step` from each of `n` levels to the next, with vertices in the middle of its sides at all
+/// levels and half way between these.
+Part twisted_bar(std::size_t k, std::size_t n, double step, double height)
+{
+  const double apothem = std::cos(pi / double(k));
+  const auto at = [&](double level, double side) {
+    const double turn = step * level + 2 * pi * side / double(k);
+    const double radius = side == std::floor(side) ? 1 : apothem;
+    return Vector_3(radius * std::cos(turn), radius * std::sin(turn), height * level);
+  };
+  Part part;
+  std::vector<Vector_3> bottom, top;
+  for (std::size_t j = 0; j < 2 * k; ++j) {
+    bottom.push_back(at(0, 0.5 * double(2 * k - 1 - j)));
+    top.push_back(at(double(n), 0.5 * double(j)));
+  }
+  part.polygons.add(bottom);
+  part.polygons.add(top);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < k; ++j) {
+      const double low = double(i), up = low + 1, right = double(j), left = double((j + 1) % k), middle = right + 0.5;
+      const Vector_3 center = at(low + 0.5, middle);
+      part.polygons.add({at(low, right), at(low, middle), at(low, left), center});
+      part.polygons.add({at(up, left), at(up, middle), at(up, right), center});
+      part.polygons.add({at(low, left), at(up, left), center});
+      part.polygons.add({at(up, right), at(low, right), center});
+    }
+  const double end = height * double(n);
+  part.is_flat = [=](const Vector_3& p) { return p[2] < 0 || p[2] > end; };
+  part.distance = [=](const Vector_3& p) {
+    double beyond = -1;
+    for (std::size_t j = 0; j < k; ++j) {
+      const double turn = step * p[2] / height + 2 * pi * (double(j) + 0.5) / double(k);
+      beyond = (std::max)(beyond, std::cos(turn) * p[0] + std::sin(turn) * p[1] - apothem);
+    }
+    return (std::min)({std::abs(beyond), std::abs(p[2]), std::abs(end - p[2])});
+  };
+  part.sag = step * std::sin(pi / double(k)) / 8; // of a chord from the middle of a side to a corner half a level above
+  part.size = 0.1;
+  return part;
+}
+
+/// Chords of a saddle turn to and fro. In the last row before an end nothing tells some of them from an edge.
+TEST(Cad_tessellations, of_twisted_bars_have_no_edges_across_their_sides)
+{
+  Random random(16);
+  for (int i = 0; i < 10; ++i) {
+    const std::size_t k = 4 + random.below(4), n = 6 + random.below(6);
+    const double step = random.real(0.1, 0.2), height = random.real(0.25, 0.45);
+    SCOPED_TRACE(std::to_string(k) + ", " + std::to_string(step) + ", " + std::to_string(height));
+    const Part part = twisted_bar(k, n, step, height);
+    const Placed input = placed_in_turn(part, i);
+    const std::size_t expected = k * (n + 4), most_at_ends = 4 * k, found = number_of_ridges(input.soup);
+    EXPECT_GE(found, expected);
+    EXPECT_LE(found, expected + most_at_ends);
+    expect_near(part, input, {1, 0.5});
+  }
+}
+
 TEST(Cad_tessellations, of_boxes_with_rounded_edges_keep_the_mitres_up_to_the_top)
 {
   Random random(13);

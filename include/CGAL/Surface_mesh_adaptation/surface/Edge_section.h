@@ -51,6 +51,13 @@ public:
     return std::abs(next_turn(side, part, distance, is_end)) > part * std::abs(turn_);
   }
 
+  /// Whether it turns back there, by more than `part` of the turn at the edge.
+  template <class End>
+  bool turns_back(Index side, double part, double distance, const End& is_end) const
+  {
+    return next_turn(side, part, distance, is_end) < -part * std::abs(turn_);
+  }
+
 private:
   static constexpr int most_faces = 64;
 

@@ -54,7 +54,7 @@ public:
     const Edge_section section(mesh_, points_, facets_, h);
     if (!(section.turn() > least_single_turn(section, h)) || (are_triangles(h) && is_beside_sliver(section, h)))
       return false;
-    return is_straight_beside(section, h, h) && is_straight_beside(section, h, t);
+    return is_straight_beside(section, h, h) && is_straight_beside(section, h, t) && !bends_to_and_fro(section, h);
   }
 
   /// Whether the edge `last`, below the angle of ridges, may fade in `h`: the surface turns there, but less.
@@ -91,6 +91,8 @@ private:
   /// where it is known from the edges before it.
   static constexpr double largest_turn_again = 1.0 / 3, largest_turn_beside_fading = 2.0 / 3;
 
+  static constexpr double least_turn_back = 2.0 / 3;
+
   /// Turns that are less than this, five degrees, or ten where the facets are longer along the edge than across, are
   /// what diagonals make of something smooth.
   static constexpr double least_turn_across_strips = 0.087, least_turn_along_strips = 0.174;
@@ -111,6 +113,18 @@ private:
     if (!are_triangles(h)) return !section.turns_again(side, largest_turn_again, section.length(), is_end);
     const double part = largest_turn_again * (std::min)(section.turn() / usual_turn_of_triangles, 1.0);
     return !section.turns_at_all(side, part, few * section.length(), is_end);
+  }
+
+  /// Whether the surface turns back on both sides of `h` as it turns there, as chords of a saddle do; beside a triangle
+  /// alone, on one.
+  bool bends_to_and_fro(const Edge_section& section, Index h) const
+  {
+    const auto turns_back = [&](Index side) {
+      return section.turns_back(side, least_turn_back, section.length(), [&](Index g) { return marks_[g] != 0; });
+    };
+    const Index t = mesh_.twin[h];
+    const bool is_beside_triangle = facet(h).faces == 1 || facet(t).faces == 1;
+    return is_beside_triangle ? turns_back(h) || turns_back(t) : turns_back(h) && turns_back(t);
   }
 
   /// Whether the facets on both sides are triangles alone: behind one of them the same strip may go on.
