@@ -144,7 +144,7 @@ private:
       surface_.scale_metric(execution_, std::exp(step));
       scale += step;
       find_work();
-      do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
+      correct_in_rounds();
     }
     surface_.scale_metric(execution_, std::exp(-scale));
   }
@@ -176,7 +176,7 @@ private:
       (std::max)(deviations.allowed(), deviations.nth_largest(std::size_t(left / vertices_of_correction)));
     work_where(surface_.tighten_metric(execution_, size_factors(deviations, bound), limits_of_deviation()));
     if (extent_ == 0) return false;
-    do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
+    correct_in_rounds();
     refinement_.compact();
     return true;
   }
@@ -197,7 +197,7 @@ private:
       if (factors.empty()) break; // sizes cannot part them
       work_where(surface_.tighten_metric(execution_, factors, limits_at_gaps));
       if (extent_ == 0) break;
-      do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_));
+      correct_in_rounds();
       refinement_.compact();
       is_parted_ = true;
     }
@@ -268,6 +268,9 @@ private:
     std::nth_element(lengths.begin(), nth, lengths.end());
     return 2 * std::log((missing > 0 ? max_unit_length : min_unit_length) / *nth);
   }
+
+  /// Once the metric has changed: what the mesh is in the new one is what rounds have to gain on.
+  void correct_in_rounds() { do_rounds(rounds_of_correction, mesh_statistics(execution_, surface_)); }
 
   /// At most `rounds`, while they gain something on `before`.
   void do_rounds(std::size_t rounds, Mesh_statistics before)

@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace CGAL {
@@ -20,9 +21,10 @@ namespace internal {
 class Edge_section
 {
 public:
-  /// \pre `h` is between two facets
-  Edge_section(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets, Index h)
-    : mesh_(mesh), points_(points), facets_(facets), h_(h)
+  /// It ends at edges whose mark is not 0. \pre `h` is between two facets
+  Edge_section(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets,
+               const std::vector<std::uint8_t>& marks, Index h)
+    : mesh_(mesh), points_(points), facets_(facets), marks_(marks), h_(h)
     , middle_((points[mesh.source(h)] + points[mesh.target(h)]) / 2)
     , axis_((points[mesh.target(h)] - points[mesh.source(h)]).normalized())
     , turn_(turn_between(normal(mesh.twin[h]), normal(h)))
@@ -37,25 +39,22 @@ public:
   double length(Index side) const { return side == h_ ? on_left_ : on_right_; }
 
   /// Whether the line goes on from the facet of `side` to a turn by more than `part` of that at the edge, and the same
-  /// way: within `distance`, before it turns back by as much, and before an edge with `is_end(g)`.
-  template <class End>
-  bool turns_again(Index side, double part, double distance, const End& is_end) const
+  /// way: within `distance`, before it turns back by as much, and before it ends.
+  bool turns_again(Index side, double part, double distance) const
   {
-    return next_turn(side, part, distance, is_end) > part * std::abs(turn_);
+    return next_turn(side, part, distance) > part * std::abs(turn_);
   }
 
   /// The same of a turn either way.
-  template <class End>
-  bool turns_at_all(Index side, double part, double distance, const End& is_end) const
+  bool turns_at_all(Index side, double part, double distance) const
   {
-    return std::abs(next_turn(side, part, distance, is_end)) > part * std::abs(turn_);
+    return std::abs(next_turn(side, part, distance)) > part * std::abs(turn_);
   }
 
   /// Whether it turns back there, by more than `part` of the turn at the edge.
-  template <class End>
-  bool turns_back(Index side, double part, double distance, const End& is_end) const
+  bool turns_back(Index side, double part, double distance) const
   {
-    return next_turn(side, part, distance, is_end) < -part * std::abs(turn_);
+    return next_turn(side, part, distance) < -part * std::abs(turn_);
   }
 
 private:
@@ -63,15 +62,14 @@ private:
 
   /// The last turn that is looked at, positive if it is the same way: the first by more than `part` of that at the edge,
   /// either way, if there is one.
-  template <class End>
-  double next_turn(Index side, double part, double distance, const End& is_end) const
+  double next_turn(Index side, double part, double distance) const
   {
     const double sign = (turn_ > 0) == (side == h_) ? 1 : -1;
     double walked = 0, turn = 0;
     walk(side, [&](Index g, double step) {
       walked += step;
       turn = 0;
-      if (walked > distance || mesh_.is_border(g) || is_end(g)) return false;
+      if (walked > distance || mesh_.is_border(g) || marks_[g] != 0) return false;
       turn = sign * turn_between(normal(g), normal(mesh_.twin[g]));
       return std::abs(turn) <= part * std::abs(turn_);
     });
@@ -132,6 +130,7 @@ private:
   const Mesh_view& mesh_;
   const std::vector<Vector_3>& points_;
   const Facets& facets_;
+  const std::vector<std::uint8_t>& marks_;
   Index h_;
   Vector_3 middle_, axis_;
   double turn_, on_left_, on_right_;

@@ -51,7 +51,7 @@ public:
   {
     if (are_one(h)) return false;
     const Index t = mesh_.twin[h];
-    const Edge_section section(mesh_, points_, facets_, h);
+    const Edge_section section(mesh_, points_, facets_, marks_, h);
     if (!(section.turn() > least_single_turn(section, h)) || (are_triangles(h) && is_beside_sliver(section, h)))
       return false;
     return is_straight_beside(section, h, h) && is_straight_beside(section, h, t) && !bends_to_and_fro(section, h);
@@ -61,7 +61,7 @@ public:
   bool turns_less(Index last, Index h) const
   {
     if (are_one(h)) return false;
-    const Edge_section section(mesh_, points_, facets_, h);
+    const Edge_section section(mesh_, points_, facets_, marks_, h);
     return section.turn() < turn(last) && section.turn() > least_turn_of_facets && !is_beside_sliver(section, h);
   }
 
@@ -69,10 +69,10 @@ public:
   /// is left of the turn at `last`; it may be `no_index`.
   bool fades_in(Index before, Index last, Index h) const
   {
-    const Edge_section section(mesh_, points_, facets_, h);
+    const Edge_section section(mesh_, points_, facets_, marks_, h);
     if (before != no_index && are_alike(section.turn(), turn_after(before, last, h), largest_error_of_fading)) return true;
-    return !turns_again(section, h, largest_turn_beside_fading, section.length()) &&
-           !turns_again(section, mesh_.twin[h], largest_turn_beside_fading, section.length());
+    return !section.turns_again(h, largest_turn_beside_fading, section.length()) &&
+           !section.turns_again(mesh_.twin[h], largest_turn_beside_fading, section.length());
   }
 
   /// Whether a plane ends at `h` in something curved, or strips do that are straight across it.
@@ -109,19 +109,16 @@ private:
   /// Whether the surface does not turn again on `side` of `h` as it does there: triangles neither way.
   bool is_straight_beside(const Edge_section& section, Index h, Index side) const
   {
-    const auto is_end = [&](Index g) { return marks_[g] != 0; };
-    if (!are_triangles(h)) return !section.turns_again(side, largest_turn_again, section.length(), is_end);
+    if (!are_triangles(h)) return !section.turns_again(side, largest_turn_again, section.length());
     const double part = largest_turn_again * (std::min)(section.turn() / usual_turn_of_triangles, 1.0);
-    return !section.turns_at_all(side, part, few * section.length(), is_end);
+    return !section.turns_at_all(side, part, few * section.length());
   }
 
   /// Whether the surface turns back on both sides of `h` as it turns there, as chords of a saddle do; beside a triangle
   /// alone, on one.
   bool bends_to_and_fro(const Edge_section& section, Index h) const
   {
-    const auto turns_back = [&](Index side) {
-      return section.turns_back(side, least_turn_back, section.length(), [&](Index g) { return marks_[g] != 0; });
-    };
+    const auto turns_back = [&](Index side) { return section.turns_back(side, least_turn_back, section.length()); };
     const Index t = mesh_.twin[h];
     const bool is_beside_triangle = facet(h).faces == 1 || facet(t).faces == 1;
     return is_beside_triangle ? turns_back(h) || turns_back(t) : turns_back(h) && turns_back(t);
@@ -160,22 +157,17 @@ private:
   {
     const Index t = mesh_.twin[h];
     if (facet(t).faces == 1) return false;
-    const Edge_section section(mesh_, points_, facets_, h);
+    const Edge_section section(mesh_, points_, facets_, marks_, h);
     return section.turn() > least_turn_of_facets &&
-           turns_again(section, h, least_turn_after_half, section.length()) &&
-           !turns_again(section, t, largest_turn_again, few * section.length(h));
+           section.turns_again(h, least_turn_after_half, section.length()) &&
+           !section.turns_again(t, largest_turn_again, few * section.length(h));
   }
 
   /// Whether the surface turns in the facet of `h` and behind it by clearly more than at the edge.
   bool turns_more_behind(Index h) const
   {
-    const Edge_section section(mesh_, points_, facets_, h);
-    return turns_again(section, h, least_turn_after_half, few * section.length(h));
-  }
-
-  bool turns_again(const Edge_section& section, Index side, double part, double distance) const
-  {
-    return section.turns_again(side, part, distance, [&](Index h) { return marks_[h] != 0; });
+    const Edge_section section(mesh_, points_, facets_, marks_, h);
+    return section.turns_again(h, least_turn_after_half, few * section.length(h));
   }
 
   const Facet& facet(Index h) const { return facets_.at(Mesh_view::face(h)); }

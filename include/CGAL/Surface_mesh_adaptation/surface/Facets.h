@@ -198,12 +198,12 @@ private:
   {
     return double(count_if(execution, mesh_.number_of_vertices(), [&](std::size_t v) {
       bool result = mesh_.is_border_vertex(Index(v));
-      mesh_.for_each_outgoing(Index(v), [&](Index h) { result = result || is_crease(h); });
+      mesh_.for_each_outgoing(Index(v), [&](Index h) { result = result || turns_sharply(h); });
       return result;
     })) / double(mesh_.number_of_vertices());
   }
 
-  bool is_crease(Index h) const
+  bool turns_sharply(Index h) const
   {
     return !mesh_.is_border(h) && angle_between(face_normal(mesh_, points_, h),
                                                face_normal(mesh_, points_, mesh_.twin[h])) > least_turn_of_creases;
