@@ -195,6 +195,12 @@ public:
     return best;
   }
 
+  /// Whether a triangle is nearer to `p` than `distance`.
+  bool is_near(const Vector_3& p, double distance) const
+  {
+    return nearer_than({distance * distance, size()}, p).triangle != size();
+  }
+
   /// A triangle near `p`, reached from `start` across edges that `p` lies beyond. Where the surface is nearly flat it
   /// is the one next to `p`; it may be any.
   std::size_t towards(const Vector_3& p, std::size_t start) const

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -83,9 +84,9 @@ struct Seen_part
 class Walk_over_surface
 {
 public:
-  /// \pre `t` is not degenerate
+  /// `surface` and `t` must live as long as this. \pre `t` is not degenerate
   Walk_over_surface(const Triangle_tree& surface, const Triangle_points& t, double limit)
-    : surface_(surface), view_(t), centroid_((t[0] + t[1] + t[2]) / 3)
+    : surface_(surface), t_(t), view_(t), centroid_((t[0] + t[1] + t[2]) / 3)
   {
     const double radius = std::sqrt((std::max)(
       {(t[0] - centroid_).squaredNorm(), (t[1] - centroid_).squaredNorm(), (t[2] - centroid_).squaredNorm()}));
@@ -104,8 +105,11 @@ public:
     return is_center_covered_;
   }
 
+  /// A point of `t` where `run()` has met a triangle that is farther from its plane, if that is why it stopped.
+  const std::optional<Vector_3>& too_far() const { return too_far_; }
+
 private:
-  static constexpr double share_of_shrinking = 0.25; // of the limit
+  static constexpr double share_of_shrinking = 0.03; // of the limit
   static constexpr double most_shrinking = 0.5;      // of the triangle
   static constexpr std::size_t most_triangles = 48;
   using Point = View_along_normal::Point;
@@ -125,13 +129,22 @@ private:
       const Seen_part part(a, b, margin_);
       if (part.is_empty()) continue;
       const double rise = b.height - a.height;
-      if (!is_all_low && (!is_low(a.height + part.begin * rise) || !is_low(a.height + part.end * rise))) return false;
+      if (!is_all_low)
+        for (const double at : {part.begin, part.end})
+          if (!is_low(a.height + at * rise)) return stop_at(a, b, at);
       if (beyond == i || !note(beyond)) return false;
     }
     return is_all_low || is_low_at_corners(p);
   }
 
   bool is_low(double height) const { return std::abs(height) <= largest_height_; }
+
+  bool stop_at(const Point& a, const Point& b, double at)
+  {
+    too_far_ = Vector_3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) *too_far_ += (a.weights[i] + at * (b.weights[i] - a.weights[i])) * t_[i];
+    return false;
+  }
 
   static bool covers(const Points& p, const Point& q)
   {
@@ -164,12 +177,19 @@ private:
   }
 
   const Triangle_tree& surface_;
+  const Triangle_points& t_;
   View_along_normal view_;
   Vector_3 centroid_;
   double margin_, largest_height_;
+  std::optional<Vector_3> too_far_;
   boost::container::static_vector<std::size_t, most_triangles> seen_;
   bool is_center_covered_ = false;
 };
+
+inline bool is_degenerate(const Triangle_points& t)
+{
+  return !((t[1] - t[0]).cross(t[2] - t[0]).squaredNorm() > 0);
+}
 
 /// Whether the triangles of the surface that are seen along the normal of `t` in its place are on the same side as `t`,
 /// there at most `limit` from its plane, and leave no gap: then all points of `t` lie within `limit` of the surface. Walks
@@ -180,8 +200,7 @@ private:
 /// surface may turn away.
 inline bool is_over_surface(const Triangle_tree& surface, const Triangle_points& t, double limit, std::size_t start)
 {
-  const bool is_degenerate = !((t[1] - t[0]).cross(t[2] - t[0]).squaredNorm() > 0);
-  return !is_degenerate && Walk_over_surface(surface, t, limit).run(start);
+  return !is_degenerate(t) && Walk_over_surface(surface, t, limit).run(start);
 }
 
 } // namespace internal

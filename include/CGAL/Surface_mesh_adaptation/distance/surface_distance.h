@@ -142,13 +142,13 @@ void split(const Triangle_piece& piece, const Triangle_points& t, const Use& use
 
 } // namespace internal
 
-/// Whether all points of `t` lie within `limit` of the surface. `false` may be wrong, for no more than `max_pieces`
-/// pieces of `t` are looked at. `guesses` are places of triangles of the surface near the corners.
+namespace internal {
+
+/// See `is_within()`: cuts the triangle into pieces that lie over single triangles of the surface.
 template <class Guesses>
-bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit, const Guesses& guesses,
-               std::size_t max_pieces)
+bool are_pieces_within(const Triangle_tree& tree, const Triangle_points& t, double limit, const Guesses& guesses,
+                       std::size_t max_pieces)
 {
-  if (internal::is_over_surface(tree, t, limit, *guesses.begin())) return true;
   const double squared_limit = limit * limit;
   Ring<internal::Triangle_piece> pieces{{{t.begin(), t.end()}, 0}};
   for (const std::size_t guess : guesses) {
@@ -175,6 +175,22 @@ bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit
     });
   }
   return true;
+}
+
+} // namespace internal
+
+/// Whether all points of `t` lie within `limit` of the surface. `false` may be wrong, for no more than `max_pieces`
+/// pieces of `t` are looked at. `guesses` are places of triangles of the surface near the corners.
+template <class Guesses>
+bool is_within(const Triangle_tree& tree, const Triangle_points& t, double limit, const Guesses& guesses,
+               std::size_t max_pieces)
+{
+  if (!internal::is_degenerate(t)) {
+    internal::Walk_over_surface walk(tree, t, limit);
+    if (walk.run(*guesses.begin())) return true;
+    if (walk.too_far() && !tree.is_near(*walk.too_far(), limit)) return false;
+  }
+  return internal::are_pieces_within(tree, t, limit, guesses, max_pieces);
 }
 
 /// How close upper bounds of distances are to these.

@@ -124,8 +124,11 @@ private:
 
   bool keeps_tolerance(const Placed_vertex<Metric>& moved) const
   {
+    const Mesh_view& mesh = surface.mesh;
     Ring<Triangle_points> faces;
-    star.for_each_face([&](const Neighbor& a, const Neighbor& b) { faces.push_back({moved.point, a.point, b.point}); });
+    mesh.for_each_outgoing(vertex, [&](Index h) {
+      faces.push_back({moved.point, surface.points[mesh.target(h)], surface.points[mesh.apex(h)]});
+    });
     return surface.tolerance->are_covered(surface.faces_around(vertex), faces) &&
            star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
              return surface.tolerance->is_kept({moved.location, moved.point}, surface.corner(a.vertex),
