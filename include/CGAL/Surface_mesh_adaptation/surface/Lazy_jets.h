@@ -19,6 +19,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace CGAL {
@@ -114,22 +115,25 @@ inline Vector_3 mean_normal(const Mesh_view& mesh, const std::vector<Vector_3>& 
 
 /// The jet of the sector of the `n` faces from that of `first` on, where it has the normal `start` of Max: in a plane
 /// of the shape that of the plane, where facets of many sizes meet that of these; else of a fit; if none is good
-/// enough, with the mean normal of the triangles. Sets `ruling` where facets say one.
+/// enough, or it is not across rulings that end there, with the mean normal of the triangles. Sets `ruling` where facets
+/// say one.
 inline Jet jet_of_sector(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets, Index first,
                          std::size_t n, const Vector_3& start, Vector_3& ruling)
 {
   const Metric_tensor_3 none(0, 0, 0, 0, 0, 0);
+  std::optional<Sector_facets> sector;
   if (!facets.empty()) {
-    const Sector_facets sector(facets, mesh, points, first, n);
-    if (const Facet* plane = sector.plane()) return {plane->normal, none, false};
-    if (facets.are_chords()) ruling = sector.ruling();
+    sector.emplace(facets, mesh, points, first, n);
+    if (const Facet* plane = sector->plane()) return {plane->normal, none, false};
+    if (facets.are_chords()) ruling = sector->ruling();
     const bool is_of_chords = ruling.squaredNorm() > 0 ||
-                              (facets.are_chords() && sector.has_polygon() && !sector.are_of_one_net());
-    const Vector_3 normal = is_of_chords ? sector.normal() : Vector_3::Zero();
+                              (facets.are_chords() && sector->has_polygon() && !sector->are_of_one_net());
+    const Vector_3 normal = is_of_chords ? sector->normal() : Vector_3::Zero();
     if (normal.squaredNorm() > 0) return {normal, none, false};
   }
   Jet_of_sector fit{start, none};
-  if (fit_jet(mesh, points, &facets, first, n, start, Jet_fit::exact, Fit_purpose::patches, fit) != Fit_degree::none)
+  if (fit_jet(mesh, points, &facets, first, n, start, Jet_fit::exact, Fit_purpose::patches, fit) != Fit_degree::none &&
+      (!facets.are_chords() || sector->is_across_rulings(fit.normal)))
     return {fit.normal, fit.shape_operator, true};
   return {mean_normal(mesh, points, first, n, start), none, false};
 }

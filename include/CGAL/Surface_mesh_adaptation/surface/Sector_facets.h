@@ -87,12 +87,11 @@ public:
     return true;
   }
 
-  /// A unit vector along which the surface is straight, nearly: the mean of their sides, turned one way, where all reach
-  /// from one crease to another, and are parallel enough to say one. Those of polygons are that where the surface bends
-  /// along them less than across; beside triangles, what polygons there are know their normals better. Zero elsewhere.
+  /// A unit vector along which the surface is straight, nearly: the mean of their sides, turned one way, if they are
+  /// rulings, and parallel enough to say one; else zero.
   Vector_3 ruling() const
   {
-    if (!is_between_creases_ || (has_polygon() && !(has_only_polygons() && bends_across()))) return Vector_3::Zero();
+    if (!are_sides_rulings()) return Vector_3::Zero();
     Vector_3 mean = Vector_3::Zero();
     for (std::size_t i = 1; i < corners_.size(); ++i)
       mean += corners_[i].right.normalized() * (corners_[i].right.dot(corners_[1].right) < 0 ? -1 : 1);
@@ -101,6 +100,19 @@ public:
       return std::abs(c.right.dot(mean)) > least_cosine_of_rulings * c.right.norm();
     });
     return are_parallel ? mean : Vector_3(Vector_3::Zero());
+  }
+
+  /// Whether `n` is across the rulings that end at a vertex inside: sides that are far longer than what goes on behind
+  /// it, in a fillet, say. Fits over both may have any normal.
+  bool is_across_rulings(const Vector_3& n) const
+  {
+    for (std::size_t i = 0; is_closed_ && i < corners_.size(); ++i) {
+      const Vector_3& d = corners_[i].right;
+      if (std::abs(n.dot(d)) > largest_slope_of_rulings * d.norm() &&
+          squared_ratio_to_opposite(corners_[i]) > squared(far_longer) && bends_across(i, i, d.norm()))
+        return false;
+    }
+    return true;
   }
 
   /// The mean of their normals with the weights of Max for whole facets, made orthogonal to sides that are too long to
@@ -135,6 +147,9 @@ private:
   /// Of the angle, 30 degrees, between rulings at one vertex and their mean: facets between them are longer than wide.
   static constexpr double least_cosine_of_rulings = 0.866;
 
+  /// By which normals may not be across them, about six degrees: half of what one chord turns by.
+  static constexpr double largest_slope_of_rulings = 0.1;
+
   static double squared(double x) { return x * x; }
 
   struct Corner
@@ -156,6 +171,16 @@ private:
     return first;
   }
 
+  /// Whether the sides of an open sector are rulings: those that reach from one crease to another, or several where the
+  /// surface bends along them less than across. The latter goes for polygons anyway; beside triangles, what polygons there
+  /// are know their normals better.
+  bool are_sides_rulings() const
+  {
+    if (is_closed_ || (has_polygon() && !has_only_polygons())) return false;
+    if (is_between_creases_ && !has_polygon()) return true;
+    return (is_between_creases_ || corners_.size() > 2) && bends_across();
+  }
+
   bool has_only_polygons() const
   {
     return std::all_of(corners_.begin(), corners_.end(), [&](const Corner& c) { return facet(c).faces > 1; });
@@ -164,15 +189,22 @@ private:
   /// Whether their sides are chords of nothing that bends along them as it does across.
   bool bends_across() const
   {
-    double shortest = std::numeric_limits<double>::infinity(), width = 0;
-    for (std::size_t i = 1; i < corners_.size(); ++i) {
-      const double length = corners_[i].right.norm();
-      shortest = (std::min)(shortest, length);
-      width += (facet(corners_[i - 1]).area + facet(corners_[i]).area) / (2 * length);
-    }
-    const double turn = angle_between(facet(corners_.front()).normal, facet(corners_.back()).normal);
-    return turn * shortest > largest_turn_of_chords * width;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < corners_.size(); ++i) shortest = (std::min)(shortest, corners_[i].right.norm());
+    return bends_across(1, corners_.size() - 1, shortest);
   }
+
+  /// The same of the right sides of the corners from `begin` to `last`, as if they were of this length.
+  bool bends_across(std::size_t begin, std::size_t last, double length) const
+  {
+    double width = 0;
+    for (std::size_t i = begin; i <= last; ++i)
+      width += (facet(before(i)).area + facet(corners_[i]).area) / (2 * corners_[i].right.norm());
+    return angle_between(facet(before(begin)).normal, facet(corners_[last]).normal) * length >
+           largest_turn_of_chords * width;
+  }
+
+  const Corner& before(std::size_t i) const { return i > 0 ? corners_[i - 1] : corners_.back(); }
 
   /// Whether all sides between the facets of an open sector end where `is_end(vertex, side)`: on creases, say, or where
   /// what goes on is far shorter.
