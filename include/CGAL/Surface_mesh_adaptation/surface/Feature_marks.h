@@ -78,8 +78,11 @@ public:
     mark_feature_edges(execution);
     if (finds_edges_of_facets())
       while (extend_ridges(execution, [&](Index last, Index h) { return is_almost_ridge(last) && is_almost_ridge(h); })) {}
-    if (!facets_.empty()) find_planes(mesh, points, [&](Index h) { return !is_marked(h); }, facets_);
-    if (finds_edges_of_facets()) mark_edges_of_facets(execution);
+    if (!facets_.empty()) find_planes();
+    if (finds_edges_of_facets()) {
+      mark_edges_of_facets(execution);
+      find_planes(); // once more, for chamfers are not of one row with what the edges part them from
+    }
     if (parameters.detect_ridges) {
       unmark_folds(execution);
       unmark_wrong_diagonals(execution);
@@ -186,6 +189,11 @@ private:
   }
 
   bool is_marked(Index h) const { return is_feature_[h] != none; }
+
+  void find_planes()
+  {
+    Surface_mesh_adaptation::find_planes(mesh_, points_, [&](Index h) { return !is_marked(h); }, facets_);
+  }
 
   /// Not where a mesher has been at work, to whose small facets any angles happen.
   bool finds_edges_of_facets() const

@@ -125,8 +125,10 @@ public:
   {
     measure_bends();
     are_meshed_ = are_meshed_ && are_curved_ones_meshed();
-    if (!are_meshed_)
-      for (Facet& f : facets_) f.is_plane = f.has_inner_vertices;
+    for (Facet& f : facets_) {
+      f.is_plane = f.has_inner_vertices && !are_meshed_;
+      f.turn = 0;
+    }
     join_rows();
     mark_planes();
     if (are_meshed_) unmark_bent_planes();
