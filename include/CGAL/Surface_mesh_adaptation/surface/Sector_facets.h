@@ -102,15 +102,13 @@ public:
     return are_parallel ? mean : Vector_3(Vector_3::Zero());
   }
 
-  /// Whether `n` is across the rulings that end at a vertex inside: sides that are far longer than what goes on behind
-  /// it, in a fillet, say. Fits over both may have any normal.
+  /// Whether `n` is across the rulings that end at a vertex inside. Fits over what goes on behind it, in a fillet, say,
+  /// may have any normal.
   bool is_across_rulings(const Vector_3& n) const
   {
     for (std::size_t i = 0; is_closed_ && i < corners_.size(); ++i) {
       const Vector_3& d = corners_[i].right;
-      if (std::abs(n.dot(d)) > largest_slope_of_rulings * d.norm() &&
-          squared_ratio_to_opposite(corners_[i]) > squared(far_longer) && bends_across(i, i, d.norm()))
-        return false;
+      if (std::abs(n.dot(d)) > largest_slope_of_rulings * d.norm() && is_ending_ruling(i)) return false;
     }
     return true;
   }
@@ -147,8 +145,8 @@ private:
   /// Of the angle, 30 degrees, between rulings at one vertex and their mean: facets between them are longer than wide.
   static constexpr double least_cosine_of_rulings = 0.866;
 
-  /// By which normals may not be across them, about six degrees: half of what one chord turns by.
-  static constexpr double largest_slope_of_rulings = 0.1;
+  /// By which normals may not be across them: about two degrees.
+  static constexpr double largest_slope_of_rulings = 0.03;
 
   static double squared(double x) { return x * x; }
 
@@ -202,6 +200,15 @@ private:
       width += (facet(before(i)).area + facet(corners_[i]).area) / (2 * corners_[i].right.norm());
     return angle_between(facet(before(begin)).normal, facet(corners_[last]).normal) * length >
            largest_turn_of_chords * width;
+  }
+
+  /// Whether the right side of corner `i` is far longer than what goes on behind the vertex, and the surface does not bend
+  /// along it as across, or it is so much longer that it need not be asked.
+  bool is_ending_ruling(std::size_t i) const
+  {
+    const double ratio2 = squared_ratio_to_opposite(corners_[i]);
+    return ratio2 > squared(2 * far_longer) ||
+           (ratio2 > squared(far_longer) && bends_across(i, i, corners_[i].right.norm()));
   }
 
   const Corner& before(std::size_t i) const { return i > 0 ? corners_[i - 1] : corners_.back(); }
