@@ -57,7 +57,7 @@ public:
     return is_straight_beside(section, h, h) && is_straight_beside(section, h, t) && !bends_to_and_fro(section, h);
   }
 
-  /// Whether the edge `last`, below the angle of ridges, may fade in `h`: the surface turns there, but less.
+  /// Whether the edge `last` may fade in `h`: the surface turns there, but less.
   bool turns_less(Index last, Index h) const
   {
     if (are_one(h)) return false;
@@ -65,12 +65,17 @@ public:
     return section.turn() < turn(last) && section.turn() > least_turn_of_facets && !is_beside_sliver(section, h);
   }
 
-  /// Whether it does: the surface does not turn beside `h` as it does there, or the edge `before` says that this is what
-  /// is left of the turn at `last`; it may be `no_index`.
-  bool fades_in(Index before, Index last, Index h) const
+  /// Whether it does: the turn at `h` is what the edge `before` says that is left of that at `last`.
+  bool fades_evenly(Index before, Index last, Index h) const
   {
     const Edge_section section(mesh_, points_, facets_, marks_, h);
-    if (before != no_index && are_alike(section.turn(), turn_after(before, last, h), largest_error_of_fading)) return true;
+    return are_alike(section.turn(), turn_after(before, last, h), largest_error_of_fading);
+  }
+
+  /// Or the surface does not turn beside `h` as it does there.
+  bool turns_alone(Index h) const
+  {
+    const Edge_section section(mesh_, points_, facets_, marks_, h);
     return !section.turns_again(h, largest_turn_beside_fading, section.length()) &&
            !section.turns_again(mesh_.twin[h], largest_turn_beside_fading, section.length());
   }

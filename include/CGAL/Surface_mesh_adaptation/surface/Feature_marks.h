@@ -244,12 +244,14 @@ private:
     return mesh_.target(straightest);
   }
 
-  /// Whether the ridge that ends in `last` fades in `h`, or `h` is all that it lacks to the next feature.
+  /// Whether the ridge that ends in `last` fades in `h`, evenly if it does so from the angle of ridges on, or `h` is all
+  /// that it lacks to the next feature.
   bool fades_in(Index last, Index h) const
   {
-    if (is_ridge(last) || !facet_edges().turns_less(last, h)) return false;
+    if (!facet_edges().turns_less(last, h)) return false;
     const Index before = only_edge(mesh_.target(last), ridge, mesh_.source(last));
-    return degree(mesh_.target(h)) > 0 || facet_edges().fades_in(before, last, h);
+    if (before != no_index && facet_edges().fades_evenly(before, last, h)) return true;
+    return !is_ridge(last) && (degree(mesh_.target(h)) > 0 || facet_edges().turns_alone(h));
   }
 
   /// Whether `h` is a ridge, or what chords have left of one. Facets that are as large as each other bend.
