@@ -809,6 +809,75 @@ Part rounded_post(Random& random, double length, std::size_t n)
   return part;
 }
 
+/// A post of radius 1 and this length that a fillet of radius `r`, in `rows` chords, joins to a disc above. Its triangles
+/// have `n` vertices around at one end and `m` at all other levels, at angles of their own: no edge is a ruling.
+Part filleted_post(Random& random, double length, double r, std::size_t n, std::size_t m, std::size_t rows)
+{
+  const double rim = 1.5 + r, top = r + 0.3;
+  Corners profile{{1, -length}};
+  for (std::size_t j = 0; j <= rows; ++j) {
+    const double angle = double(j) / double(rows) * pi / 2;
+    profile.push_back({1 + r - r * std::cos(angle), r * std::sin(angle)});
+  }
+  profile.insert(profile.end(), {{rim, r}, {rim, top}});
+  const auto at = [&](std::size_t i) {
+    return [q = profile[i]](double angle) -> Vector_3 { return {q[0] * std::cos(angle), q[0] * std::sin(angle), q[1]}; };
+  };
+  Part part;
+  std::vector<double> below = angles_around(random, n);
+  std::vector<Vector_3> bottom, cap;
+  for (const double angle : below) bottom.insert(bottom.begin(), at(0)(angle));
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    const std::vector<double> above = angles_around(random, m);
+    add_strip(part.polygons, below, above, at(i - 1), at(i));
+    below = above;
+  }
+  for (const double angle : below) cap.push_back(at(profile.size() - 1)(angle));
+  part.polygons.add(bottom);
+  part.polygons.add(cap);
+  const Corners sharp{{rim, top}, {rim, r}, {1 + r, r}, {1, 0}, {1, -length}};
+  const Arc arc{2, {1 + r, 0}, int(rows)};
+  part.distance = [=](const Vector_3& p) { return distance_to_line(sharp, arc, {std::hypot(p[0], p[1]), p[2]}); };
+  part.is_flat = [=](const Vector_3& p) { return p[2] < 1e-9 - length || p[2] > top - 1e-9; };
+  part.sag = (1 - std::cos(1.4 * pi / double((std::min)(n, m)))) * rim;
+  part.size = 0.15;
+  return part;
+}
+
+/// A plate with rounded upright edges, in `k` chords each, and a chamfer around its top that is by `down` down and by
+/// `inwards` inwards.
+Part chamfered_plate(double x, double y, double r, int k, double down, double inwards)
+{
+  const auto outline = [&](double radius, double z) {
+    std::vector<Vector_3> points;
+    for (int q = 0; q < 4; ++q)
+      for (int i = 0; i <= k; ++i) {
+        const double t = (q + double(i) / k) * pi / 2;
+        points.push_back({(q == 0 || q == 3 ? x : -x) + radius * std::cos(t), (q < 2 ? y : -y) + radius * std::sin(t), z});
+      }
+    return points;
+  };
+  const std::vector<Vector_3> wall = outline(r, 0), top = outline(r - inwards, down);
+  Part part;
+  part.polygons = prism(wall, -0.5);
+  part.polygons.polygons.erase(part.polygons.polygons.begin()); // the top
+  for (std::size_t i = 0; i < wall.size(); ++i) {
+    const std::size_t j = (i + 1) % wall.size();
+    part.polygons.add({wall[i], wall[j], top[j], top[i]});
+  }
+  part.polygons.add(top);
+  const double steepness = down / std::hypot(down, inwards);
+  part.distance = [=](const Vector_3& p) {
+    const double dx = std::abs(p[0]) - x, dy = std::abs(p[1]) - y;
+    const double out = std::hypot((std::max)(dx, 0.0), (std::max)(dy, 0.0)) + (std::min)(0.0, (std::max)(dx, dy)) - r;
+    return (std::max)({out, p[2] - down, -0.5 - p[2], steepness * (out + inwards / down * p[2])});
+  };
+  part.is_flat = [=](const Vector_3& p) { return std::abs(p[0]) < x - 1e-6 || std::abs(p[1]) < y - 1e-6; };
+  part.sag = r * (1 - std::cos(pi / (4 * k)));
+  part.size = 0.1;
+  return part;
+}
+
 /// A box whose upper edges are rounded by `r` in `k` chords, with sharp vertical ones: they fade where they go on in the
 /// mitres, up to the top.
 Part box_with_mitres(double a, double b, double height, double r, int k)
@@ -1193,6 +1262,34 @@ TEST(Cad_tessellations, of_posts_with_round_ends_are_straight_up_to_there)
     const Part part = rounded_post(random, length, n);
     const Placed input = placed_in_turn(part, i);
     expect_near(part, input, {1, 0.25});
+  }
+}
+
+TEST(Cad_tessellations, of_posts_that_end_in_fillets_are_straight_up_to_there)
+{
+  Random random(15);
+  for (int i = 0; i < 8; ++i) {
+    const double length = random.real(2, 5), r = random.real(0.15, 0.4);
+    const std::size_t n = 24 + random.below(40), m = 24 + random.below(40), rows = 4 + random.below(6);
+    SCOPED_TRACE(std::to_string(length) + ", " + std::to_string(r) + ", " + std::to_string(n));
+    const Part part = filleted_post(random, length, r, n, m, rows);
+    expect_near(part, placed_in_turn(part, i), {1, 0.3});
+  }
+}
+
+TEST(Cad_tessellations, of_plates_with_flat_chamfers_keep_these_flat)
+{
+  Random random(16);
+  for (int i = 0; i < 8; ++i) {
+    const double x = random.real(0.6, 1.5), y = random.real(0.4, 1), r = random.real(0.3, 0.6);
+    const double inwards = random.real(0.05, 0.2), down = inwards * random.real(1.2, 3);
+    const int k = 6 + int(random.below(16));
+    SCOPED_TRACE(std::to_string(x) + ", " + std::to_string(inwards) + ", " + std::to_string(down) + ", " + std::to_string(k));
+    const Part part = chamfered_plate(x, y, r, k, down, inwards);
+    const Placed input = placed_in_turn(part, i);
+    EXPECT_EQ(number_of_ridges(input.soup), 12 * std::size_t(k + 1));
+    const Errors e = expect_near(part, input, {1, 0.25});
+    EXPECT_LE(e.flat, 20 * input.rounding);
   }
 }
 

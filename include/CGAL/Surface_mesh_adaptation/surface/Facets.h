@@ -176,6 +176,10 @@ private:
   /// on edges that turn by this, 45 degrees.
   static constexpr double largest_quality_of_needles = 0.3, least_share_on_creases = 0.5, least_turn_of_creases = 0.785;
 
+  /// The same of the mean by area, where such a share of it is in planes: long triangles of straight walls, which are large,
+  /// beside many small ones of fillets.
+  static constexpr double largest_quality_of_walls = 0.47, least_share_beside_walls = 0.25;
+
   /// Whether enough of the faces have a coplanar neighbour: of their number, or of their area where these are few and
   /// large.
   template <class Execution>
@@ -183,11 +187,14 @@ private:
   {
     using Sums = std::array<double, 4>; // number and area of these faces, and of all
     const Sums sums = reduce(execution, mesh_.number_of_faces(), Sums{}, [&](std::size_t f) -> Sums {
-      const double area = face_normal(mesh_, points_, Index(3 * f)).norm() / 2;
+      const double area = this->area(f);
       return has_coplanar_neighbor(Index(f)) ? Sums{1, area, 1, area} : Sums{0, 0, 1, area};
     }, [](const Sums& a, const Sums& b) -> Sums { return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]}; });
     const double share = sums[0] / sums[2];
     if (share >= usual_share || sums[1] >= least_share_of_area * sums[3]) return true;
+    if (sums[1] >= least_share_beside_walls * sums[3] &&
+        mean_quality(execution, [&](std::size_t f) { return area(f); }) <= largest_quality_of_walls)
+      return true;
     const double largest_quality = share >= least_share ? least_quality_of_meshers : largest_quality_of_needles;
     return mean_quality(execution) <= largest_quality && share_on_creases(execution) >= least_share_on_creases;
   }
@@ -209,15 +216,27 @@ private:
                                                face_normal(mesh_, points_, mesh_.twin[h])) > least_turn_of_creases;
   }
 
-  /// Of the triangles: 1 if they are equilateral.
+  double area(std::size_t f) const { return face_normal(mesh_, points_, Index(3 * f)).norm() / 2; }
+
   template <class Execution>
   double mean_quality(const Execution& execution) const
   {
-    return reduce(execution, mesh_.number_of_faces(), 0.0, [&](std::size_t f) {
+    return mean_quality(execution, [](std::size_t) { return 1.0; });
+  }
+
+  /// Of the triangles, with these weights: 1 if they are equilateral.
+  template <class Execution, class Weight>
+  double mean_quality(const Execution& execution, const Weight& weight) const
+  {
+    const auto sum = [&](const auto& value) {
+      return reduce(execution, mesh_.number_of_faces(), 0.0, value, std::plus<double>());
+    };
+    return sum([&](std::size_t f) {
       const Isotropic_metric m{1};
       const Vector_3& a = points_[mesh_.corner[3 * f]];
-      return face_quality(m, m, m, points_[mesh_.corner[3 * f + 1]] - a, points_[mesh_.corner[3 * f + 2]] - a);
-    }, std::plus<double>()) / double(mesh_.number_of_faces());
+      return weight(f) *
+             face_quality(m, m, m, points_[mesh_.corner[3 * f + 1]] - a, points_[mesh_.corner[3 * f + 2]] - a);
+    }) / sum(weight);
   }
 
   /// A plane that is known no better than a triangle says.
