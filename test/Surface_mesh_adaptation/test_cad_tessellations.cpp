@@ -1165,6 +1165,20 @@ TEST(Cad_tessellations, of_pipes_that_touch_keep_the_edges_up_to_there)
   }
 }
 
+TEST(Cad_tessellations, of_pipes_of_few_chords_keep_the_edges_up_to_where_they_touch)
+{
+  Random random(17);
+  for (int i = 0; i < 8; ++i) {
+    const double length = random.real(2.5, 5);
+    const std::size_t k = 2 * (3 + random.below(4)), m = 16 + random.below(16);
+    SCOPED_TRACE(std::to_string(length) + ", " + std::to_string(k) + ", " + std::to_string(m));
+    const Part part = crossing_pipes(random, length, k, m);
+    const Placed input = placed_in_turn(part, i);
+    EXPECT_EQ(number_of_ridges(input.soup), 4 * (k + m));
+    expect_near(part, input, {1, 0.5});
+  }
+}
+
 TEST(Cad_tessellations, of_what_two_pipes_have_in_common_keep_the_edges_up_to_the_poles)
 {
   Random random(14);
