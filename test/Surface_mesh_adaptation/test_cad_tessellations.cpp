@@ -1126,6 +1126,34 @@ TEST(Cad_tessellations, of_boxes_with_chamfered_edges_keep_all_of_them)
   }
 }
 
+std::vector<Vector_3> regular_polygon(std::size_t n, double r, double x)
+{
+  std::vector<Vector_3> corners;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = 2 * pi * double(i) / double(n);
+    corners.push_back({x + r * std::cos(angle), r * std::sin(angle), 1});
+  }
+  return corners;
+}
+
+TEST(Cad_tessellations, of_octagons_keep_their_edges_beside_what_has_finer_chords)
+{
+  Random random(18);
+  for (int i = 0; i < 8; ++i) {
+    Part part;
+    part.polygons = prism(regular_polygon(8, random.real(0.5, 2), 0), 0);
+    EXPECT_EQ(number_of_ridges(placed_in_turn(part, i).soup), 16u); // round
+    const std::size_t n = 16 + random.below(40);
+    const Polygons circle = prism(regular_polygon(n, random.real(0.3, 2), 5), 0);
+    for (const Polygon& polygon : circle.polygons) {
+      std::vector<Vector_3> corners;
+      for (const Index v : polygon) corners.push_back(circle.points[v]);
+      part.polygons.add(corners);
+    }
+    EXPECT_EQ(number_of_ridges(placed_in_turn(part, i).soup), 24 + 2 * n);
+  }
+}
+
 TEST(Cad_tessellations, of_chamfers_around_ellipses_keep_both_edges)
 {
   Random random(8);

@@ -45,6 +45,12 @@ constexpr double cosine_of_fading = 0.866;
 /// of one. On scans and meshes of a mesher no angle is meant exactly.
 constexpr double rounding_of_angles = 0.01;
 
+/// In degrees: chords of something curved turn by no less from one to the next.
+constexpr double least_turn_of_chords = 1;
+
+/// Of the angle of ridges: where most edges turn by less than this, coarser chords are none.
+constexpr double largest_part_of_fine_chords = 2.0 / 3;
+
 /// In degrees: chords of a circle take so much of the angle of a chamfer along it, from twelve on.
 constexpr double loss_to_chords = 1;
 
@@ -75,6 +81,7 @@ public:
     , cosine_behind_ridge_(cosine_of_ridge((least_part_of_ridge - 1) * parameters.ridge_angle))
     , is_feature_(mesh.number_of_halfedges(), 0)
   {
+    are_chords_finer_ = are_chords_finer(execution);
     mark_feature_edges(execution);
     if (finds_edges_of_facets())
       while (extend_ridges(execution, [&](Index last, Index h) { return is_almost_ridge(last) && is_almost_ridge(h); })) {}
@@ -130,7 +137,26 @@ private:
     if (facets_.empty()) return is_turned(h, cosine_of_ridge_);
     const Index f = Mesh_view::face(h), g = Mesh_view::face(mesh_.twin[h]);
     const double cosine = facets_.at(f).normal.dot(facets_.at(g).normal);
-    return !facets_.are_one(f, g) && (cosine < cosine_above_ || (cosine < cosine_below_ && !are_regular(f, g)));
+    return !facets_.are_one(f, g) &&
+           (cosine < cosine_above_ || (cosine < cosine_below_ && (are_chords_finer_ || !are_regular(f, g))));
+  }
+
+  /// Whether most edges between facets that are no clear ridges turn by far less than these: then eight facets around are
+  /// an octagon, and not what chords have made of something round.
+  template <class Execution>
+  bool are_chords_finer(const Execution& execution) const
+  {
+    if (facets_.empty()) return false;
+    const auto edges_between = [&](double least_cosine, double largest_cosine) {
+      return count_if(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
+        const Index h = Index(i);
+        if (mesh_.is_border(h) || !mesh_.is_edge_owner(h)) return false;
+        const double cosine = facets_.at(Mesh_view::face(h)).normal.dot(facets_.at(Mesh_view::face(mesh_.twin[h])).normal);
+        return least_cosine <= cosine && cosine < largest_cosine;
+      });
+    };
+    const double fine = cosine_of_ridge((largest_part_of_fine_chords - 1) * parameters_.ridge_angle);
+    return edges_between(fine, std::cos(least_turn_of_chords * CGAL_PI / 180)) > edges_between(cosine_above_, fine);
   }
 
   /// Whether the facets of two faces are as large as each other, as those of a round bore are: at the very angle of
@@ -446,6 +472,7 @@ private:
   Facets facets_;
   double cosine_of_ridge_, cosine_below_, cosine_above_; // of the angle, and on both sides of what may have become of it
   double cosine_behind_ridge_;
+  bool are_chords_finer_ = false;
   std::vector<std::uint8_t> is_feature_;
 };
 
