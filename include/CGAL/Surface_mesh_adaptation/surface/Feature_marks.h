@@ -141,22 +141,34 @@ private:
            (cosine < cosine_above_ || (cosine < cosine_below_ && (are_chords_finer_ || !are_regular(f, g))));
   }
 
-  /// Whether most edges between facets that are no clear ridges turn by far less than these: then eight facets around are
-  /// an octagon, and not what chords have made of something round.
+  /// Whether most edges that are no clear ridges turn by far less than these, between facets that turn so at no edge: then
+  /// eight facets around are an octagon, and not what chords have made of something round.
   template <class Execution>
   bool are_chords_finer(const Execution& execution) const
   {
     if (facets_.empty()) return false;
-    const auto edges_between = [&](double least_cosine, double largest_cosine) {
-      return count_if(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
-        const Index h = Index(i);
-        if (mesh_.is_border(h) || !mesh_.is_edge_owner(h)) return false;
-        const double cosine = facets_.at(Mesh_view::face(h)).normal.dot(facets_.at(Mesh_view::face(mesh_.twin[h])).normal);
-        return least_cosine <= cosine && cosine < largest_cosine;
-      });
-    };
     const double fine = cosine_of_ridge((largest_part_of_fine_chords - 1) * parameters_.ridge_angle);
-    return edges_between(fine, std::cos(least_turn_of_chords * CGAL_PI / 180)) > edges_between(cosine_above_, fine);
+    const double flat = std::cos(least_turn_of_chords * CGAL_PI / 180);
+    const std::vector<Index> coarse = edges_between(execution, cosine_above_, fine);
+    std::vector<std::uint8_t> has_coarse(facets_.facets.size(), 0);
+    for (const Index h : coarse)
+      for (const Index f : {Mesh_view::face(h), Mesh_view::face(mesh_.twin[h])}) has_coarse[facets_.of_face[f]] = 1;
+    std::size_t finer = 0;
+    for (const Index h : edges_between(execution, fine, flat))
+      finer += has_coarse[facets_.of_face[Mesh_view::face(h)]] + has_coarse[facets_.of_face[Mesh_view::face(mesh_.twin[h])]] == 0;
+    return finer > coarse.size();
+  }
+
+  /// Halfedges, one each, of edges between facets whose normals have a cosine from `least` on and below `largest`.
+  template <class Execution>
+  std::vector<Index> edges_between(const Execution& execution, double least, double largest) const
+  {
+    return pack(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
+      const Index h = Index(i);
+      if (mesh_.is_border(h) || !mesh_.is_edge_owner(h)) return false;
+      const double cosine = facets_.at(Mesh_view::face(h)).normal.dot(facets_.at(Mesh_view::face(mesh_.twin[h])).normal);
+      return least <= cosine && cosine < largest;
+    });
   }
 
   /// Whether the facets of two faces are as large as each other, as those of a round bore are: at the very angle of
