@@ -1154,13 +1154,13 @@ TEST(Cad_tessellations, of_octagons_keep_their_edges_beside_what_has_finer_chord
   }
 }
 
-/// Facets with edges of both kinds.
+/// Facets with edges of both kinds. At the top and at the bottom they turn by a little more than 45 degrees.
 TEST(Cad_tessellations, of_tori_of_eight_chords_are_round)
 {
   Random random(19);
   for (int i = 0; i < 8; ++i) {
     const std::size_t n = 16 + random.below(30);
-    const double r = random.real(0.1, 0.6);
+    const double r = random.real(0.05, 0.2); // facets as large as each other, nearly
     const auto at = [&](std::size_t j, std::size_t k) -> Vector_3 {
       const double around = 2 * pi * double(j % n) / double(n), angle = 2 * pi * double(k % 8) / 8;
       const double x = 1 + r * std::cos(angle);
@@ -1169,7 +1169,7 @@ TEST(Cad_tessellations, of_tori_of_eight_chords_are_round)
     Part part;
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t k = 0; k < 8; ++k) part.polygons.add({at(j, k), at(j + 1, k), at(j + 1, k + 1), at(j, k + 1)});
-    EXPECT_EQ(number_of_ridges(placed_in_turn(part, i).soup), 0u) << n;
+    EXPECT_EQ(number_of_ridges(placed_in_turn(part, i).soup), 2 * n);
   }
 }
 
