@@ -140,10 +140,6 @@ void split(const Triangle_piece& piece, const Triangle_points& t, const Use& use
   use(rest);
 }
 
-} // namespace internal
-
-namespace internal {
-
 /// See `is_within()`: cuts the triangle into pieces that lie over single triangles of the surface.
 template <class Guesses>
 bool are_pieces_within(const Triangle_tree& tree, const Triangle_points& t, double limit, const Guesses& guesses,

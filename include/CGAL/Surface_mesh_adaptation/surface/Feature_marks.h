@@ -153,9 +153,9 @@ private:
     std::vector<std::uint8_t> has_coarse(facets_.facets.size(), 0);
     for (const Index h : coarse)
       for (const Index f : {Mesh_view::face(h), Mesh_view::face(mesh_.twin[h])}) has_coarse[facets_.of_face[f]] = 1;
+    const auto is_coarse = [&](Index h) { return has_coarse[facets_.of_face[Mesh_view::face(h)]] != 0; };
     std::size_t finer = 0;
-    for (const Index h : edges_between(execution, fine, flat))
-      finer += has_coarse[facets_.of_face[Mesh_view::face(h)]] + has_coarse[facets_.of_face[Mesh_view::face(mesh_.twin[h])]] == 0;
+    for (const Index h : edges_between(execution, fine, flat)) finer += !is_coarse(h) && !is_coarse(mesh_.twin[h]);
     return finer > coarse.size();
   }
 
