@@ -423,21 +423,33 @@ Polygons prism(const std::vector<Vector_3>& top, double z)
   return result;
 }
 
+/// A rectangle with the half sides `x` and `y` and arcs of radius `r` around it, in `k` chords each, at the height `z`.
+std::vector<Vector_3> rounded_outline(double x, double y, double r, int k, double z)
+{
+  std::vector<Vector_3> points;
+  for (int q = 0; q < 4; ++q)
+    for (int i = 0; i <= k; ++i) {
+      const double t = (q + double(i) / k) * pi / 2;
+      points.push_back({(q == 0 || q == 3 ? x : -x) + r * std::cos(t), (q < 2 ? y : -y) + r * std::sin(t), z});
+    }
+  return points;
+}
+
+/// How far `p` is outside of that outline, seen from above; negative inside.
+double outside_of_outline(const Vector_3& p, double x, double y, double r)
+{
+  const double dx = std::abs(p[0]) - x, dy = std::abs(p[1]) - y;
+  return std::hypot((std::max)(dx, 0.0), (std::max)(dy, 0.0)) + (std::min)(0.0, (std::max)(dx, dy)) - r;
+}
+
 /// A plate of which the four upright edges are rounded, in `k` chords each: long edges and short ones on its outlines.
 Part rounded_plate(int k)
 {
   constexpr double x = 1.6, y = 0.6, r = 0.4, h = 0.2;
-  std::vector<Vector_3> top;
-  for (int q = 0; q < 4; ++q)
-    for (int i = 0; i <= k; ++i) {
-      const double t = (q + double(i) / k) * pi / 2;
-      top.push_back({(q == 0 || q == 3 ? x : -x) + r * std::cos(t), (q < 2 ? y : -y) + r * std::sin(t), h});
-    }
   Part part;
-  part.polygons = prism(top, -h);
+  part.polygons = prism(rounded_outline(x, y, r, k, h), -h);
   part.distance = [=](const Vector_3& p) {
-    const double dx = std::abs(p[0]) - x, dy = std::abs(p[1]) - y, dz = std::abs(p[2]) - h;
-    const double d = std::hypot((std::max)(dx, 0.0), (std::max)(dy, 0.0)) + (std::min)(0.0, (std::max)(dx, dy)) - r;
+    const double d = outside_of_outline(p, x, y, r), dz = std::abs(p[2]) - h;
     return std::hypot((std::max)(d, 0.0), (std::max)(dz, 0.0)) + (std::min)(0.0, (std::max)(d, dz));
   };
   part.is_flat = [=](const Vector_3& p) { return std::abs(p[0]) < x - 1e-6 || std::abs(p[1]) < y - 1e-6; };
@@ -848,16 +860,7 @@ Part filleted_post(Random& random, double length, double r, std::size_t n, std::
 /// `inwards` inwards.
 Part chamfered_plate(double x, double y, double r, int k, double down, double inwards)
 {
-  const auto outline = [&](double radius, double z) {
-    std::vector<Vector_3> points;
-    for (int q = 0; q < 4; ++q)
-      for (int i = 0; i <= k; ++i) {
-        const double t = (q + double(i) / k) * pi / 2;
-        points.push_back({(q == 0 || q == 3 ? x : -x) + radius * std::cos(t), (q < 2 ? y : -y) + radius * std::sin(t), z});
-      }
-    return points;
-  };
-  const std::vector<Vector_3> wall = outline(r, 0), top = outline(r - inwards, down);
+  const std::vector<Vector_3> wall = rounded_outline(x, y, r, k, 0), top = rounded_outline(x, y, r - inwards, k, down);
   Part part;
   part.polygons = prism(wall, -0.5);
   part.polygons.polygons.erase(part.polygons.polygons.begin()); // the top
@@ -868,8 +871,7 @@ Part chamfered_plate(double x, double y, double r, int k, double down, double in
   part.polygons.add(top);
   const double steepness = down / std::hypot(down, inwards);
   part.distance = [=](const Vector_3& p) {
-    const double dx = std::abs(p[0]) - x, dy = std::abs(p[1]) - y;
-    const double out = std::hypot((std::max)(dx, 0.0), (std::max)(dy, 0.0)) + (std::min)(0.0, (std::max)(dx, dy)) - r;
+    const double out = outside_of_outline(p, x, y, r);
     return (std::max)({out, p[2] - down, -0.5 - p[2], steepness * (out + inwards / down * p[2])});
   };
   part.is_flat = [=](const Vector_3& p) { return std::abs(p[0]) < x - 1e-6 || std::abs(p[1]) < y - 1e-6; };
@@ -1198,12 +1200,18 @@ TEST(Cad_tessellations, of_cylinders_without_rulings_are_straight)
   }
 }
 
-TEST(Cad_tessellations, of_pipes_that_touch_keep_the_edges_up_to_there)
+struct Chords
 {
-  Random random(11);
+  std::size_t least, range; ///< numbers from the former on, and below the sum
+};
+
+void expect_edges_up_to_where_pipes_touch(std::uint64_t seed, const Chords& of_half_an_edge, const Chords& around)
+{
+  Random random(seed);
   for (int i = 0; i < 8; ++i) {
     const double length = random.real(2.5, 5);
-    const std::size_t k = 2 * (8 + random.below(12)), m = 30 + random.below(40);
+    const std::size_t k = 2 * (of_half_an_edge.least + random.below(of_half_an_edge.range));
+    const std::size_t m = around.least + random.below(around.range);
     SCOPED_TRACE(std::to_string(length) + ", " + std::to_string(k) + ", " + std::to_string(m));
     const Part part = crossing_pipes(random, length, k, m);
     const Placed input = placed_in_turn(part, i);
@@ -1212,18 +1220,14 @@ TEST(Cad_tessellations, of_pipes_that_touch_keep_the_edges_up_to_there)
   }
 }
 
+TEST(Cad_tessellations, of_pipes_that_touch_keep_the_edges_up_to_there)
+{
+  expect_edges_up_to_where_pipes_touch(11, {8, 12}, {30, 40});
+}
+
 TEST(Cad_tessellations, of_pipes_of_few_chords_keep_the_edges_up_to_where_they_touch)
 {
-  Random random(17);
-  for (int i = 0; i < 8; ++i) {
-    const double length = random.real(2.5, 5);
-    const std::size_t k = 2 * (3 + random.below(4)), m = 16 + random.below(16);
-    SCOPED_TRACE(std::to_string(length) + ", " + std::to_string(k) + ", " + std::to_string(m));
-    const Part part = crossing_pipes(random, length, k, m);
-    const Placed input = placed_in_turn(part, i);
-    EXPECT_EQ(number_of_ridges(input.soup), 4 * (k + m));
-    expect_near(part, input, {1, 0.5});
-  }
+  expect_edges_up_to_where_pipes_touch(17, {3, 4}, {16, 16});
 }
 
 TEST(Cad_tessellations, of_what_two_pipes_have_in_common_keep_the_edges_up_to_the_poles)

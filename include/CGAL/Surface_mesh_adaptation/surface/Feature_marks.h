@@ -136,7 +136,7 @@ private:
   {
     if (facets_.empty()) return is_turned(h, cosine_of_ridge_);
     const Index f = Mesh_view::face(h), g = Mesh_view::face(mesh_.twin[h]);
-    const double cosine = facets_.at(f).normal.dot(facets_.at(g).normal);
+    const double cosine = cosine_at(h);
     return !facets_.are_one(f, g) &&
            (cosine < cosine_above_ || (cosine < cosine_below_ && (are_chords_finer_ || !are_regular(f, g))));
   }
@@ -159,6 +159,12 @@ private:
     return finer > coarse.size();
   }
 
+  /// Of the angle between the facets on both sides of `h`.
+  double cosine_at(Index h) const
+  {
+    return facets_.at(Mesh_view::face(h)).normal.dot(facets_.at(Mesh_view::face(mesh_.twin[h])).normal);
+  }
+
   /// Halfedges, one each, of edges between facets whose normals have a cosine from `least` on and below `largest`.
   template <class Execution>
   std::vector<Index> edges_between(const Execution& execution, double least, double largest) const
@@ -166,7 +172,7 @@ private:
     return pack(execution, mesh_.number_of_halfedges(), [&](std::size_t i) {
       const Index h = Index(i);
       if (mesh_.is_border(h) || !mesh_.is_edge_owner(h)) return false;
-      const double cosine = facets_.at(Mesh_view::face(h)).normal.dot(facets_.at(Mesh_view::face(mesh_.twin[h])).normal);
+      const double cosine = cosine_at(h);
       return least <= cosine && cosine < largest;
     });
   }
@@ -296,8 +302,7 @@ private:
   bool is_almost_ridge(Index h) const
   {
     const Index f = Mesh_view::face(h), g = Mesh_view::face(mesh_.twin[h]);
-    return !facets_.are_one(f, g) && !are_regular(f, g) &&
-           facets_.at(f).normal.dot(facets_.at(g).normal) < cosine_behind_ridge_;
+    return !facets_.are_one(f, g) && !are_regular(f, g) && cosine_at(h) < cosine_behind_ridge_;
   }
 
   /// The halfedge from `v` along the only feature edge there, but for one to the vertex `from`, if it has the mark `mark`;
