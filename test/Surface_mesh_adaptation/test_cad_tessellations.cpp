@@ -41,6 +41,15 @@ public:
     if (polygon.size() > 2) polygons.push_back(polygon);
   }
 
+  void add(const Polygons& others)
+  {
+    for (const Polygon& polygon : others.polygons) {
+      std::vector<Vector_3> corners;
+      for (const Index v : polygon) corners.push_back(others.points[v]);
+      add(corners);
+    }
+  }
+
 private:
   Index vertex(const Vector_3& p)
   {
@@ -1146,13 +1155,32 @@ TEST(Cad_tessellations, of_octagons_keep_their_edges_beside_what_has_finer_chord
     part.polygons = prism(regular_polygon(8, random.real(0.5, 2), 0), 0);
     EXPECT_EQ(number_of_ridges(placed_in_turn(part, i).soup), 16u); // round
     const std::size_t n = 16 + random.below(40);
-    const Polygons circle = prism(regular_polygon(n, random.real(0.3, 2), 5), 0);
-    for (const Polygon& polygon : circle.polygons) {
-      std::vector<Vector_3> corners;
-      for (const Index v : polygon) corners.push_back(circle.points[v]);
-      part.polygons.add(corners);
-    }
+    part.polygons.add(prism(regular_polygon(n, random.real(0.3, 2), 5), 0));
     EXPECT_EQ(number_of_ridges(placed_in_turn(part, i).soup), 24 + 2 * n);
+  }
+}
+
+/// The ridges of a prism over this polygon and, but for `n` = 0, of one beside it over a regular polygon of `n` corners.
+std::size_t ridges_of_prisms(const std::vector<Vector_3>& corners, std::size_t n, int i)
+{
+  Part part;
+  part.polygons = prism(corners, 0);
+  if (n > 0) part.polygons.add(prism(regular_polygon(n, 1, 5), 0));
+  return number_of_ridges(placed_in_turn(part, i).soup);
+}
+
+/// The walls turn by 29 to 48 degrees, the chords of the circle by 6 to 9.
+TEST(Cad_tessellations, of_prisms_keep_their_edges_beside_chords_that_are_narrower)
+{
+  Random random(20);
+  for (int i = 0; i < 8; ++i) {
+    const std::size_t m = 9 + random.below(3), n = 40 + random.below(20);
+    EXPECT_EQ(ridges_of_prisms(regular_polygon(m, 2, 0), 0, i), 2 * m); // round
+    EXPECT_EQ(ridges_of_prisms(regular_polygon(m, random.real(0.05, 0.1), 0), n, i), 2 * m + 2 * n); // a small hole
+    EXPECT_EQ(ridges_of_prisms(regular_polygon(m, random.real(1.2, 3), 0), n, i), 3 * m + 2 * n);
+    std::vector<Vector_3> uneven;
+    for (const double angle : angles_around(random, 9)) uneven.push_back({2 * std::cos(angle), 2 * std::sin(angle), 1});
+    EXPECT_EQ(ridges_of_prisms(uneven, n, i), 3 * 9 + 2 * n);
   }
 }
 
@@ -1314,6 +1342,19 @@ TEST(Cad_tessellations, of_boxes_with_rounded_edges_keep_the_mitres_up_to_the_to
     // the largest is at the last chord of a mitre, which says least of how it ends
     const Errors e = expect_near(part, input, {3, 0.25});
     EXPECT_LE(e.flat, 20 * input.rounding);
+  }
+}
+
+/// Strips a few hundred times as long as wide: what the normals at their ends are off would bend them between.
+TEST(Cad_tessellations, of_long_boxes_with_thin_fillets_leave_their_facets_by_no_more_than_chords_do)
+{
+  Random random(21);
+  for (int i = 0; i < 8; ++i) {
+    const double a = random.real(2, 5), b = random.real(0.5, 1.5), r = random.real(0.02, 0.05);
+    const int k = 4 + int(random.below(8));
+    SCOPED_TRACE(std::to_string(a) + ", " + std::to_string(b) + ", " + std::to_string(r) + ", " + std::to_string(k));
+    const Part part = box_with_mitres(a, b, 0.5, r, k);
+    expect_near(part, placed_in_turn(part, i), {2, 1});
   }
 }
 

@@ -21,6 +21,9 @@ struct Cubic_handles
   bool is_straight;  ///< whether the normals or a tangent say nothing about the curve, so that the chord stands in
 };
 
+/// By how much the curve is off the middle of its edge.
+inline Vector_3 bulge(const Cubic_handles& h) { return 0.375 * (h.start + h.end); }
+
 /// The chord.
 inline Cubic_handles straight_handles(const Vector_3& e)
 {

@@ -73,9 +73,8 @@ private:
     const bool is_side = b == no_index && strokes.are_sides(); // of an outline
     if (is_side || !strokes.is_on_arc(i) || (is_beside_plane(a) && is_beside_plane(b))) return straight;
     const Vector_3 ta = tangent_in_planes(a, b, c.tangents[i]), tb = tangent_in_planes(a, b, c.tangents[i + 1]);
-    const Cubic_handles h = feature_handles(e, ta, tb);
-    const Vector_3 bulge = 0.375 * (h.start + h.end);
-    if (leaves_facet(a, bulge) || (b != no_index && leaves_facet(b, bulge))) return straight;
+    const Vector_3 off = bulge(feature_handles(e, ta, tb));
+    if (leaves_facet(a, off) || (b != no_index && leaves_facet(b, off))) return straight;
     return {ta, tb};
   }
 

@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Chords.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Edge_section.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
 
@@ -57,6 +58,16 @@ public:
     return is_straight_beside(section, h, h) && is_straight_beside(section, h, t) && !bends_to_and_fro(section, h);
   }
 
+  /// Whether the surface turns at `h` by far more than at any of the `chords`, between facets that are far wider, and no
+  /// triangles.
+  bool is_coarser(Index h, const Chords& chords) const
+  {
+    const Index t = mesh_.twin[h];
+    if (are_one(h) || facet(h).faces < 2 || facet(t).faces < 2 || turn(h) <= far_more * chords.turn) return false;
+    const Edge_section section(mesh_, points_, facets_, marks_, h);
+    return (std::min)(section.length(h), section.length(t)) > far_more * chords.width;
+  }
+
   /// Whether the edge `last` may fade in `h`: the surface turns there, but less.
   bool turns_less(Index last, Index h) const
   {
@@ -89,6 +100,8 @@ public:
   }
 
 private:
+  static constexpr double far_more = 1.5;
+
   /// Factor between the turn where an edge fades and what the edges before it say.
   static constexpr double largest_error_of_fading = 1.5;
 

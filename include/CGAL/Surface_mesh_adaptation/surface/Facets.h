@@ -45,6 +45,8 @@ struct Facets
   bool are_meshed = false;      ///< whether a mesher has been over them: many vertices lie inside of facets, curved ones
                                 ///< among these
 
+  double sag = std::numeric_limits<double>::infinity();  ///< the largest of regular chords, if there are such
+
   bool empty() const { return of_face.empty(); }
 
   /// Whether facets that are no planes are chords of something curved. Those of a mesher are what its triangles happen

@@ -9,6 +9,7 @@
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Chords.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Facet_edges.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
@@ -95,6 +96,7 @@ public:
       unmark_wrong_diagonals(execution);
       remove_short_ridges(execution);
     }
+    if (facets_.are_chords()) find_sag(execution);
     mark_constraints(execution);
     if (parameters.smooth_borders && facets_.are_chords()) mark_smooth_borders(execution);
   }
@@ -239,6 +241,27 @@ private:
     Surface_mesh_adaptation::find_planes(mesh_, points_, [&](Index h) { return !is_marked(h); }, facets_);
   }
 
+  template <class Execution>
+  void find_sag(const Execution& execution)
+  {
+    const Chords chords = chords_below(execution, mesh_, points_, facets_, is_feature_, CGAL_PI);
+    if (chords.number > 0) facets_.sag = chords.sag;
+  }
+
+  /// Marks edges between facets that are coarser than all chords, in angle and in width: whatever a tessellation keeps to,
+  /// angles, lengths or distances, these are walls of the shape.
+  template <class Execution>
+  void mark_edges_of_walls(const Execution& execution)
+  {
+    const double fine = largest_part_of_fine_chords * parameters_.ridge_angle * CGAL_PI / 180;
+    const Chords chords = chords_below(execution, mesh_, points_, facets_, is_feature_, fine);
+    const std::vector<Index> walls = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
+      return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) && facet_edges().is_coarser(Index(h), chords);
+    });
+    if (walls.size() < chords.number)
+      for (const Index h : walls) set_mark(h, ridge);
+  }
+
   /// Not where a mesher has been at work, to whose small facets any angles happen.
   bool finds_edges_of_facets() const
   {
@@ -252,6 +275,7 @@ private:
   template <class Execution>
   void mark_edges_of_facets(const Execution& execution)
   {
+    mark_edges_of_walls(execution);
     mark_all(execution, ridge, [&](Index h) { return facet_edges().ends_plane(h); });
     mark_all(execution, ridge, [&](Index h) { return facet_edges().is_single_turn(h); });
     while (extend_ridges(execution, [&](Index last, Index h) { return fades_in(last, h); })) {}

@@ -75,6 +75,9 @@ public:
     for (std::size_t i = 0; i < 3; ++i)
       set_twists(i, tangent_planes(p, i, handles[i], construction), handles[(i + 2) % 3].end,
                  handles[(i + 1) % 3].start);
+    if (!bulges_beyond(p.largest_bulge)) return;
+    interior_ = Interior::cubic;
+    set_cubic_interior(handles);
   }
 
   /// The point with barycentric coordinates `(1 - u - v, u, v)`. \pre none of them is negative
@@ -146,6 +149,14 @@ private:
       if (!(c > 0 && c * c > least_squared_cosine * n2)) return false;
     }
     return true;
+  }
+
+  /// Whether the middle leaves the triangle by more than `distance`.
+  bool bulges_beyond(double distance) const
+  {
+    if (distance == std::numeric_limits<double>::infinity()) return false;
+    constexpr double third = 1.0 / 3;
+    return (point(third, third) - third * (corners_[0] + corners_[1] + corners_[2])).squaredNorm() > distance * distance;
   }
 
   /// Bernstein coefficients of the two vectors that span the tangent planes along an edge.

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -36,12 +37,15 @@ struct Patch
   /// normals; zero where it is not known.
   std::array<Metric_tensor_3, 3> shape_operators{{{0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}}};
   std::array<bool, 3> has_shape_operator{};         ///< whether the shape operator of the corner is known
+  /// Where the inside leaves the triangle by more, it follows the edges alone.
+  double largest_bulge = std::numeric_limits<double>::infinity();
 };
 
 /// The same with the corners numbered from `first` on.
 inline Patch renumbered(const Patch& p, std::size_t first)
 {
   Patch q;
+  q.largest_bulge = p.largest_bulge;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + first) % 3;
     q.points[i] = p.points[j];

@@ -107,8 +107,11 @@ public:
       p.has_shape_operator[i] = jet.has_shape_operator;
     }
     if (is_plane(f)) flatten(p, features.facets.at(f).normal);
+    if (!is_fitted(p)) p.largest_bulge = largest_bulge();
     for (std::size_t i = 0; i < 3; ++i) {
-      p.is_straight[i] = is_straight(Index(h + i), p, i);
+      const bool bulges_too_far = this->bulges_too_far(Index(h + i), p, i);
+      if (bulges_too_far) p.largest_bulge = 0; // for these normals say nothing of the inside either
+      p.is_straight[i] = bulges_too_far || is_straight(Index(h + i), p, i);
       const Index curve = mesh.curve[h + i];
       p.is_feature[i] = mesh.is_shaped(Index(h + i));
       if (!p.is_feature[i]) continue;
@@ -297,6 +300,14 @@ private:
     p.has_shape_operator = {};
   }
 
+  /// By so much may patches leave the facets of a tessellation where no fits know better.
+  double largest_bulge() const { return internal::largest_bulge_of_facets * features.facets.sag; }
+
+  static bool is_fitted(const Patch& p)
+  {
+    return p.has_shape_operator[0] && p.has_shape_operator[1] && p.has_shape_operator[2];
+  }
+
   /// Whether the patches `p` and its neighbour meet along the chord of their common edge `i`, which has the halfedge
   /// `h`: at planes, and where the curve would be off it by a large part of their heights and no fit agrees with that.
   bool is_straight(Index h, const Patch& p, std::size_t i) const
@@ -306,11 +317,36 @@ private:
     if (is_plane(Mesh_view::face(h)) || is_plane(Mesh_view::face(t))) return true;
     const std::size_t j = (i + 1) % 3;
     if (p.has_shape_operator[i] && p.has_shape_operator[j]) return false;
-    const auto curve = internal::smooth_handles(p.points[j] - p.points[i], p.normals[i], p.normals[j]);
     const double height = (std::min)(least_height(Mesh_view::face(h)), least_height(Mesh_view::face(t)));
     constexpr double least_doubtful = 0.5, least_doubtful_of_facets = 0.25; // of the height: an icosahedron has .16
-    const double largest_bulge = features.facets.are_chords() ? least_doubtful_of_facets : least_doubtful;
-    return 0.375 * (curve.start + curve.end).norm() > largest_bulge * height;
+    return bulge(p, i) > (features.facets.are_chords() ? least_doubtful_of_facets : least_doubtful) * height;
+  }
+
+  /// Whether the normals at the ends of edge `i`, the halfedge `h`, say more of a bulge than chords of a tessellation have,
+  /// and no fit does.
+  bool bulges_too_far(Index h, const Patch& p, std::size_t i) const
+  {
+    if (!features.facets.are_chords() || mesh.is_shaped(h)) return false;
+    const double bulge = this->bulge(p, i);
+    return bulge > largest_bulge() && !agrees_with_fit(p, i, bulge);
+  }
+
+  /// Whether the fits at both ends of edge `i` are known, or the curvature of one of them is that of an arc with this bulge.
+  static bool agrees_with_fit(const Patch& p, std::size_t i, double bulge)
+  {
+    constexpr double largest_ratio = 1.2;
+    const std::size_t j = (i + 1) % 3;
+    if (p.has_shape_operator[i] == p.has_shape_operator[j]) return p.has_shape_operator[i];
+    const Vector_3 e = p.points[j] - p.points[i];
+    const double of_fit = std::abs(e.dot(p.shape_operators[p.has_shape_operator[i] ? i : j] * e)) / 8;
+    return internal::are_alike(of_fit, bulge, largest_ratio);
+  }
+
+  /// How far the curve that the normals say is off the middle of edge `i`.
+  static double bulge(const Patch& p, std::size_t i)
+  {
+    const std::size_t j = (i + 1) % 3;
+    return internal::bulge(internal::smooth_handles(p.points[j] - p.points[i], p.normals[i], p.normals[j])).norm();
   }
 
   double least_height(Index f) const

@@ -5,16 +5,48 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_DETECT_FEATURES_H
 #define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_DETECT_FEATURES_H
 
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/cubic_curve.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Feature_chaining.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Feature_marks.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+namespace internal {
+
+/// How far the curves of the features are off the middles of their edges.
+template <class Execution>
+double largest_bulge_of_curves(const Execution& execution, const Features& features, const std::vector<Vector_3>& points)
+{
+  return reduce(execution, features.curves.size(), 0.0, [&](std::size_t i) {
+    const Feature_curve& c = features.curves[i];
+    double largest = 0;
+    for (std::size_t j = 0; j < c.ends.size(); ++j) {
+      const Vector_3 e = points[c.vertices[j + 1]] - points[c.vertices[j]];
+      largest = (std::max)(largest, bulge(feature_handles(e, c.ends[j][0], c.ends[j][1])).norm());
+    }
+    return largest;
+  }, [](double a, double b) { return (std::max)(a, b); });
+}
+
+/// Chords of curves that are cut unevenly tell of sags as well, half as much more on the facets beside.
+template <class Execution>
+void raise_sag(const Execution& execution, const std::vector<Vector_3>& points, Features& features)
+{
+  constexpr double more = 1.5;
+  const double bulge = largest_bulge_of_curves(execution, features, points);
+  features.facets.sag = (std::max)(features.facets.sag, more * bulge / largest_bulge_of_facets);
+}
+
+} // namespace internal
+
 /// \addtogroup PkgSurfaceMeshAdaptationGeometry
 /// @{
 
@@ -27,7 +59,9 @@ Features detect_features(const Execution& execution, Mesh_view& mesh, const std:
 {
   internal::Feature_marks marks(execution, mesh, points, parameters);
   Facets facets = marks.take_facets();
-  return internal::Feature_chaining(mesh, points, parameters, marks, std::move(facets)).run(execution);
+  Features features = internal::Feature_chaining(mesh, points, parameters, marks, std::move(facets)).run(execution);
+  if (features.facets.are_chords()) internal::raise_sag(execution, points, features);
+  return features;
 }
 
 /// @}

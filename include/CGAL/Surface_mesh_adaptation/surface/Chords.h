@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How coarse the chords are that a tessellation puts in place of curved surfaces.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_CHORDS_H
+#define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_CHORDS_H
+
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Edge_section.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+/// In sags of chords: that of a square is twice the sag of its sides.
+constexpr double largest_bulge_of_facets = 2;
+
+/// Chords in the middle of rows that bend evenly: of these nobody doubts that they are of something curved. The largest
+/// values are not of one chord.
+struct Chords
+{
+  std::size_t number = 0;
+  double turn = 0;   ///< from one to the next, in radians
+  double width = 0;
+  double sag = 0;    ///< of an arc that is as wide and turns by as much
+
+  Chords operator+(const Chords& c) const
+  {
+    return {number + c.number, (std::max)(turn, c.turn), (std::max)(width, c.width), (std::max)(sag, c.sag)};
+  }
+};
+
+/// The chords at the edge of `h`: none at the border of a plane and where an edge is marked.
+inline Chords chords_at(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets,
+                        const std::vector<std::uint8_t>& marks, Index h)
+{
+  constexpr double largest_ratio = 1.5, least_turn_again = 0.5, reach = 1.5;
+  const Index t = mesh.twin[h];
+  if (mesh.is_border(h) || marks[h] != 0) return {};
+  const Index f = Mesh_view::face(h), g = Mesh_view::face(t);
+  if (facets.are_one(f, g) || facets.is_plane(f) || facets.is_plane(g)) return {};
+  const Edge_section section(mesh, points, facets, marks, h);
+  const double width = (std::min)(section.length(h), section.length(t));
+  const auto goes_on = [&](Index side) { return section.turns_again(side, least_turn_again, reach * section.length()); };
+  if (!are_alike(section.length(h), section.length(t), largest_ratio) || !goes_on(h) || !goes_on(t)) return {};
+  return {1, section.turn(), width, width * section.turn() / 8};
+}
+
+/// All chords that turn by less than `turn`.
+template <class Execution>
+Chords chords_below(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
+                    const Facets& facets, const std::vector<std::uint8_t>& marks, double turn)
+{
+  return reduce(execution, mesh.number_of_halfedges(), Chords(), [&](std::size_t h) {
+    if (!mesh.is_edge_owner(Index(h))) return Chords();
+    const Chords c = chords_at(mesh, points, facets, marks, Index(h));
+    return c.turn < turn ? c : Chords();
+  }, [](const Chords& a, const Chords& b) { return a + b; });
+}
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_SURFACE_CHORDS_H
