@@ -19,8 +19,8 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 namespace internal {
 
-/// In sags of chords: that of a square is twice the sag of its sides.
-constexpr double largest_bulge_of_facets = 2;
+/// In sags of chords: that of a square is twice the sag of its sides, and not all sides are as long as each other.
+constexpr double largest_bulge_of_facets = 2.5;
 
 /// Chords in the middle of rows that bend evenly: of these nobody doubts that they are of something curved. The largest
 /// values are not of one chord.

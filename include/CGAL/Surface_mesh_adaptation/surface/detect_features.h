@@ -36,7 +36,7 @@ double largest_bulge_of_curves(const Execution& execution, const Features& featu
   }, [](double a, double b) { return (std::max)(a, b); });
 }
 
-/// Chords of curves that are cut unevenly tell of sags as well, half as much more on the facets beside.
+/// Chords of curves tell of sags as well, where rows of facets are not even: facets may bulge by half as much again.
 template <class Execution>
 void raise_sag(const Execution& execution, const std::vector<Vector_3>& points, Features& features)
 {
