@@ -7,7 +7,6 @@
 
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
-#include <CGAL/Surface_mesh_adaptation/surface/Chords.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Edge_section.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
 
@@ -58,14 +57,17 @@ public:
     return is_straight_beside(section, h, h) && is_straight_beside(section, h, t) && !bends_to_and_fro(section, h);
   }
 
-  /// Whether the surface turns at `h` by far more than at any of the `chords`, between facets that are far wider, and no
-  /// triangles.
-  bool is_coarser(Index h, const Chords& chords) const
+  /// Whether the surface turns at `h` by far more than `turn`, between facets that are no triangles.
+  bool turns_far_more(Index h, double turn) const
   {
-    const Index t = mesh_.twin[h];
-    if (are_one(h) || facet(h).faces < 2 || facet(t).faces < 2 || turn(h) <= far_more * chords.turn) return false;
+    return !are_one(h) && facet(h).faces > 1 && facet(mesh_.twin[h]).faces > 1 && this->turn(h) > far_more * turn;
+  }
+
+  /// Whether the facets at `h` are far wider than `width`.
+  bool is_far_wider(Index h, double width) const
+  {
     const Edge_section section(mesh_, points_, facets_, marks_, h);
-    return (std::min)(section.length(h), section.length(t)) > far_more * chords.width;
+    return (std::min)(section.length(h), section.length(mesh_.twin[h])) > far_more * width;
   }
 
   /// Whether the edge `last` may fade in `h`: the surface turns there, but less.

@@ -253,13 +253,19 @@ private:
   template <class Execution>
   void mark_edges_of_walls(const Execution& execution)
   {
-    const double fine = largest_part_of_fine_chords * parameters_.ridge_angle * CGAL_PI / 180;
+    constexpr double radians = CGAL_PI / 180;
+    const std::vector<Index> coarse = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
+      return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) &&
+             facet_edges().turns_far_more(Index(h), least_turn_of_chords * radians);
+    });
+    if (coarse.empty()) return; // and save the search for chords
+    const double fine = largest_part_of_fine_chords * parameters_.ridge_angle * radians;
     const Chords chords = chords_below(execution, mesh_, points_, facets_, is_feature_, fine);
-    const std::vector<Index> walls = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
-      return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) && facet_edges().is_coarser(Index(h), chords);
+    const std::vector<Index> walls = pack(execution, coarse.size(), [&](std::size_t i) {
+      return facet_edges().turns_far_more(coarse[i], chords.turn) && facet_edges().is_far_wider(coarse[i], chords.width);
     });
     if (walls.size() < chords.number)
-      for (const Index h : walls) set_mark(h, ridge);
+      for (const Index i : walls) set_mark(coarse[i], ridge);
   }
 
   /// Not where a mesher has been at work, to whose small facets any angles happen.
