@@ -1184,6 +1184,56 @@ TEST(Cad_tessellations, of_prisms_keep_their_edges_beside_chords_that_are_narrow
   }
 }
 
+/// How much a polygon turns from its edge `i` to the next one.
+double turn_of_polygon(const std::vector<Vector_3>& corners, std::size_t i)
+{
+  const std::size_t n = corners.size();
+  const Vector_3 &a = corners[i % n], &b = corners[(i + 1) % n], &c = corners[(i + 2) % n];
+  return std::atan2((b - a).cross(c - b)[2], (b - a).dot(c - b));
+}
+
+/// A convex polygon with `n` corners at random, that turns by 10 degrees or more at each and by 30 at one of two.
+std::vector<Vector_3> random_polygon(Random& random, std::size_t n)
+{
+  constexpr double least = 0.17, least_of_two = 0.53;
+  std::vector<Vector_3> corners(n);
+  bool is_done = false;
+  while (!is_done) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const double r = random.real(1, 1.7), angle = 2 * pi * (double(i) + random.real(-0.3, 0.3)) / double(n);
+      corners[i] = {r * std::cos(angle), r * std::sin(angle), 1};
+    }
+    is_done = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double turn = turn_of_polygon(corners, i), next = turn_of_polygon(corners, i + 1);
+      is_done = is_done && turn > least && (std::max)(turn, next) > least_of_two;
+    }
+  }
+  return corners;
+}
+
+/// With nothing in them that says what chords would be.
+TEST(Cad_tessellations, of_uneven_prisms_keep_all_edges)
+{
+  Random random(22);
+  for (int i = 0; i < 60; ++i) {
+    const std::size_t n = 5 + random.below(3);
+    EXPECT_EQ(ridges_of_prisms(random_polygon(random, n), 0, i), 3 * n) << i;
+  }
+}
+
+/// Three or four chords for a right angle are round nevertheless.
+TEST(Cad_tessellations, of_boxes_with_coarse_fillets_are_round)
+{
+  Random random(23);
+  for (int i = 0; i < 20; ++i) {
+    const int k = 3 + int(random.below(2));
+    const double x = random.real(1, 3), y = random.real(1, 3), r = random.real(0.1, 0.45) * (std::min)(x, y);
+    const std::vector<Vector_3> outline = rounded_outline(x, y, r, k, 1);
+    EXPECT_EQ(ridges_of_prisms(outline, 0, i), 2 * outline.size()) << k;
+  }
+}
+
 /// Facets with edges of both kinds. At the top and at the bottom they turn by a little more than 45 degrees.
 TEST(Cad_tessellations, of_tori_of_eight_chords_are_round)
 {

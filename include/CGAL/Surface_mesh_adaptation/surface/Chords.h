@@ -37,30 +37,38 @@ struct Chords
   }
 };
 
+/// What a row of chords is.
+struct Evenness
+{
+  double largest_ratio = 1.5;    ///< of the widths of two beside each other
+  double least_turn_again = 0.5; ///< on both sides, in turns at the edge between them
+};
+
 /// The chords at the edge of `h`: none at the border of a plane and where an edge is marked.
 inline Chords chords_at(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets,
-                        const std::vector<std::uint8_t>& marks, Index h)
+                        const std::vector<std::uint8_t>& marks, Index h, const Evenness& even)
 {
-  constexpr double largest_ratio = 1.5, least_turn_again = 0.5, reach = 1.5;
+  constexpr double reach = 1.5;
   const Index t = mesh.twin[h];
   if (mesh.is_border(h) || marks[h] != 0) return {};
   const Index f = Mesh_view::face(h), g = Mesh_view::face(t);
   if (facets.are_one(f, g) || facets.is_plane(f) || facets.is_plane(g)) return {};
   const Edge_section section(mesh, points, facets, marks, h);
   const double width = (std::min)(section.length(h), section.length(t));
-  const auto goes_on = [&](Index side) { return section.turns_again(side, least_turn_again, reach * section.length()); };
-  if (!are_alike(section.length(h), section.length(t), largest_ratio) || !goes_on(h) || !goes_on(t)) return {};
+  const auto goes_on = [&](Index side) { return section.turns_again(side, even.least_turn_again, reach * section.length()); };
+  if (!are_alike(section.length(h), section.length(t), even.largest_ratio) || !goes_on(h) || !goes_on(t)) return {};
   return {1, section.turn(), width, width * section.turn() / 8};
 }
 
 /// All chords that turn by less than `turn`.
 template <class Execution>
 Chords chords_below(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
-                    const Facets& facets, const std::vector<std::uint8_t>& marks, double turn)
+                    const Facets& facets, const std::vector<std::uint8_t>& marks, double turn,
+                    const Evenness& even = {})
 {
   return reduce(execution, mesh.number_of_halfedges(), Chords(), [&](std::size_t h) {
     if (!mesh.is_edge_owner(Index(h))) return Chords();
-    const Chords c = chords_at(mesh, points, facets, marks, Index(h));
+    const Chords c = chords_at(mesh, points, facets, marks, Index(h), even);
     return c.turn < turn ? c : Chords();
   }, [](const Chords& a, const Chords& b) { return a + b; });
 }

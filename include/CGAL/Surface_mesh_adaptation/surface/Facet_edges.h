@@ -57,17 +57,17 @@ public:
     return is_straight_beside(section, h, h) && is_straight_beside(section, h, t) && !bends_to_and_fro(section, h);
   }
 
-  /// Whether the surface turns at `h` by far more than `turn`, between facets that are no triangles.
-  bool turns_far_more(Index h, double turn) const
+  /// Whether the surface turns at `h` by more than `turn`, between facets that are no triangles.
+  bool turns_more(Index h, double turn) const
   {
-    return !are_one(h) && facet(h).faces > 1 && facet(mesh_.twin[h]).faces > 1 && this->turn(h) > far_more * turn;
+    return !are_one(h) && facet(h).faces > 1 && facet(mesh_.twin[h]).faces > 1 && this->turn(h) > turn;
   }
 
-  /// Whether the facets at `h` are far wider than `width`.
-  bool is_far_wider(Index h, double width) const
+  /// Whether both facets at `h` are wider than `width`.
+  bool is_wider(Index h, double width) const
   {
     const Edge_section section(mesh_, points_, facets_, marks_, h);
-    return (std::min)(section.length(h), section.length(mesh_.twin[h])) > far_more * width;
+    return (std::min)(section.length(h), section.length(mesh_.twin[h])) > width;
   }
 
   /// Whether the edge `last` may fade in `h`: the surface turns there, but less.
@@ -102,8 +102,6 @@ public:
   }
 
 private:
-  static constexpr double far_more = 1.5;
-
   /// Factor between the turn where an edge fades and what the edges before it say.
   static constexpr double largest_error_of_fading = 1.5;
 

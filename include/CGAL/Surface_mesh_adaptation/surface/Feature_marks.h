@@ -253,19 +253,36 @@ private:
   template <class Execution>
   void mark_edges_of_walls(const Execution& execution)
   {
-    constexpr double radians = CGAL_PI / 180;
-    const std::vector<Index> coarse = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
-      return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) &&
-             facet_edges().turns_far_more(Index(h), least_turn_of_chords * radians);
-    });
+    constexpr double far_more = 1.5, radians = CGAL_PI / 180;
+    const std::vector<Index> coarse = edges_of_strips(execution, far_more * least_turn_of_chords * radians);
     if (coarse.empty()) return; // and save the search for chords
     const double fine = largest_part_of_fine_chords * parameters_.ridge_angle * radians;
     const Chords chords = chords_below(execution, mesh_, points_, facets_, is_feature_, fine);
+    if (chords.number == 0) return mark_edges_of_polygons(execution, fine);
     const std::vector<Index> walls = pack(execution, coarse.size(), [&](std::size_t i) {
-      return facet_edges().turns_far_more(coarse[i], chords.turn) && facet_edges().is_far_wider(coarse[i], chords.width);
+      return facet_edges().turns_more(coarse[i], far_more * chords.turn) &&
+             facet_edges().is_wider(coarse[i], far_more * chords.width);
     });
     if (walls.size() < chords.number)
       for (const Index i : walls) set_mark(coarse[i], ridge);
+  }
+
+  /// Where nothing bends evenly there are no chords, and edges that turn by more than these may are of the shape as well.
+  template <class Execution>
+  void mark_edges_of_polygons(const Execution& execution, double turn)
+  {
+    constexpr Evenness even{1.1, 0.4}; // less than half, which is left where chords end in a plane
+    if (chords_below(execution, mesh_, points_, facets_, is_feature_, CGAL_PI, even).number > 0) return;
+    for (const Index h : edges_of_strips(execution, turn)) set_mark(h, ridge);
+  }
+
+  /// Those without a mark that turn by more, one halfedge each.
+  template <class Execution>
+  std::vector<Index> edges_of_strips(const Execution& execution, double turn) const
+  {
+    return pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
+      return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) && facet_edges().turns_more(Index(h), turn);
+    });
   }
 
   /// Not where a mesher has been at work, to whose small facets any angles happen.
