@@ -70,6 +70,12 @@ public:
     return (std::min)(section.length(h), section.length(mesh_.twin[h])) > width;
   }
 
+  /// Whether the surface turns at `h` by what it does at the edge `last`.
+  bool turns_as_much(Index last, Index h) const
+  {
+    return !are_one(h) && are_alike(turn(h), turn(last), largest_change_along_edges);
+  }
+
   /// Whether the edge `last` may fade in `h`: the surface turns there, but less.
   bool turns_less(Index last, Index h) const
   {
@@ -104,6 +110,9 @@ public:
 private:
   /// Factor between the turn where an edge fades and what the edges before it say.
   static constexpr double largest_error_of_fading = 1.5;
+
+  /// From one part to the next of an edge that goes on evenly.
+  static constexpr double largest_change_along_edges = 1.05;
 
   /// A turn is a single one if the surface turns no more than this part of it again on either side; more may follow
   /// where it is known from the edges before it.

@@ -301,7 +301,7 @@ private:
     mark_edges_of_walls(execution);
     mark_all(execution, ridge, [&](Index h) { return facet_edges().ends_plane(h); });
     mark_all(execution, ridge, [&](Index h) { return facet_edges().is_single_turn(h); });
-    while (extend_ridges(execution, [&](Index last, Index h) { return fades_in(last, h); })) {}
+    while (extend_ridges(execution, [&](Index last, Index h) { return goes_on_in(last, h); })) {}
   }
 
   /// Extends ridges that end by edges for which `goes_on(last, h)`, and returns whether there were any. What is on a
@@ -335,10 +335,11 @@ private:
     return mesh_.target(straightest);
   }
 
-  /// Whether the ridge that ends in `last` fades in `h`, evenly if it does so from the angle of ridges on, or `h` is all
-  /// that it lacks to the next feature.
-  bool fades_in(Index last, Index h) const
+  /// Whether the ridge that ends in `last` goes on in `h` as it is, or fades: evenly if it does so from the angle of ridges
+  /// on, or `h` is all that it lacks to the next feature.
+  bool goes_on_in(Index last, Index h) const
   {
+    if (facet_edges().turns_as_much(last, h) && facet_edges().turns_alone(h)) return true;
     if (!facet_edges().turns_less(last, h)) return false;
     const Index before = only_edge(mesh_.target(last), ridge, mesh_.source(last));
     if (before != no_index && facet_edges().fades_evenly(before, last, h)) return true;
