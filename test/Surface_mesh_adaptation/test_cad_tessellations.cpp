@@ -1362,6 +1362,48 @@ Part twisted_bar(std::size_t k, std::size_t n, double step, double height)
   return part;
 }
 
+/// A cone and, on top of it, what a few chords of an arc sweep around the axis. Where they meet the surface turns by `kink`,
+/// which is less than three chords do; half of the vertices behind are out of place, so that some faces are triangles.
+Part kinked_knob(Random& random, std::size_t n, double kink)
+{
+  const double chord = kink / 3.2;
+  std::vector<std::vector<Vector_3>> rings;
+  double r = 1, z = 0, steep = 0.1; // from the axis
+  for (std::size_t k = 0; k < 5; ++k) {
+    std::vector<Vector_3> ring;
+    for (std::size_t j = 0; j < n; ++j) {
+      const double out_of_place = k == 2 && random.below(2) == 0 ? random.real(-0.15, 0.15) : 0;
+      const double angle = 2 * pi * (double(j) + (k == 0 ? 0 : 0.3) + out_of_place) / double(n);
+      ring.push_back({r * std::cos(angle), r * std::sin(angle), z});
+    }
+    rings.push_back(std::move(ring));
+    const double length = k == 0 ? 0.5 : 0.1;
+    r -= length * std::sin(steep);
+    z += length * std::cos(steep);
+    steep += k == 0 ? kink : chord;
+  }
+  Part part;
+  part.polygons.add({rings[0].rbegin(), rings[0].rend()});
+  part.polygons.add(rings[4]);
+  for (std::size_t j = 0, i = n - 1; j < n; i = j++) {
+    part.polygons.add({rings[0][i], rings[0][j], rings[1][i]});
+    part.polygons.add({rings[1][i], rings[0][j], rings[1][j]});
+    for (std::size_t k = 1; k < 4; ++k) part.polygons.add({rings[k][i], rings[k][j], rings[k + 1][j], rings[k + 1][i]});
+  }
+  return part;
+}
+
+TEST(Cad_tessellations, of_kinked_knobs_have_whole_circles_of_creases)
+{
+  Random random(24);
+  for (int i = 0; i < 20; ++i) {
+    const std::size_t n = 30 + random.below(60);
+    const double kink = random.real(0.25, 0.35);
+    SCOPED_TRACE(std::to_string(n) + ", " + std::to_string(kink));
+    EXPECT_EQ(number_of_ridges(placed_in_turn(kinked_knob(random, n, kink), i).soup), 3 * n);
+  }
+}
+
 /// Chords of a saddle turn to and fro. In the last row before an end nothing tells some of them from an edge.
 TEST(Cad_tessellations, of_twisted_bars_have_no_edges_across_their_sides)
 {

@@ -112,7 +112,7 @@ private:
   static constexpr double largest_error_of_fading = 1.5;
 
   /// From one part to the next of an edge that goes on evenly.
-  static constexpr double largest_change_along_edges = 1.05;
+  static constexpr double largest_change_along_edges = 1.2;
 
   /// A turn is a single one if the surface turns no more than this part of it again on either side; more may follow
   /// where it is known from the edges before it.
