@@ -1363,7 +1363,7 @@ Part twisted_bar(std::size_t k, std::size_t n, double step, double height)
 }
 
 /// A cone and, on top of it, what a few chords of an arc sweep around the axis. Where they meet the surface turns by `kink`,
-/// which is less than three chords do; half of the vertices behind are out of place, so that some faces are triangles.
+/// which is a little more than three chords do; half of the vertices behind are out of place, so that some faces are triangles.
 Part kinked_knob(Random& random, std::size_t n, double kink)
 {
   const double chord = kink / 3.2;

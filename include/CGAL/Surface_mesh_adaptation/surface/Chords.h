@@ -37,7 +37,7 @@ struct Chords
   }
 };
 
-/// What a row of chords is.
+/// How alike the chords of a row are, at least.
 struct Evenness
 {
   double largest_ratio = 1.5;    ///< of the widths of two beside each other
