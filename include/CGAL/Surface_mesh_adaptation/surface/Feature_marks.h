@@ -254,7 +254,9 @@ private:
   void mark_edges_of_walls(const Execution& execution)
   {
     constexpr double far_more = 1.5, radians = CGAL_PI / 180;
-    const std::vector<Index> coarse = edges_of_strips(execution, far_more * least_turn_of_chords * radians);
+    const std::vector<Index> coarse = unmarked_edges(execution, [&](Index h) {
+      return facet_edges().turns_more(h, far_more * least_turn_of_chords * radians);
+    });
     if (coarse.empty()) return; // and save the search for chords
     const double fine = largest_part_of_fine_chords * parameters_.ridge_angle * radians;
     const Chords chords = chords_below(execution, mesh_, points_, facets_, is_feature_, fine);
@@ -273,16 +275,7 @@ private:
   {
     constexpr Evenness even{1.1, 0.4}; // less than half, which is left where chords end in a plane
     if (chords_below(execution, mesh_, points_, facets_, is_feature_, CGAL_PI, even).number > 0) return;
-    for (const Index h : edges_of_strips(execution, turn)) set_mark(h, ridge);
-  }
-
-  /// Those without a mark that turn by more, one halfedge each.
-  template <class Execution>
-  std::vector<Index> edges_of_strips(const Execution& execution, double turn) const
-  {
-    return pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
-      return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) && facet_edges().turns_more(Index(h), turn);
-    });
+    mark_all(execution, ridge, [&](Index h) { return facet_edges().turns_more(h, turn); });
   }
 
   /// Not where a mesher has been at work, to whose small facets any angles happen.
@@ -377,10 +370,16 @@ private:
   template <class Execution, class Predicate>
   void mark_all(const Execution& execution, Mark mark, const Predicate& predicate)
   {
-    const std::vector<Index> found = pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
+    for (const Index h : unmarked_edges(execution, predicate)) set_mark(h, mark);
+  }
+
+  /// A halfedge each of those without a mark for which `predicate(h)`.
+  template <class Execution, class Predicate>
+  std::vector<Index> unmarked_edges(const Execution& execution, const Predicate& predicate) const
+  {
+    return pack(execution, mesh_.number_of_halfedges(), [&](std::size_t h) {
       return mesh_.is_edge_owner(Index(h)) && !is_marked(Index(h)) && predicate(Index(h));
     });
-    for (const Index h : found) set_mark(h, mark);
   }
 
   /// Borders neither end nor begin within a smooth piece: what does is a few facets that happen to be so.
