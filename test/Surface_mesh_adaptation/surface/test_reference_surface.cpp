@@ -222,6 +222,21 @@ TEST(Locate, reaches_a_point_that_lies_on_the_surface)
   }
 }
 
+/// Patches over the triangles of a crumpled mesh are much longer than these.
+TEST(Locate, never_leads_away)
+{
+  Random random(13);
+  shapes::Soup soup = shapes::sphere(2, 0.3);
+  for (Vector_3& p : soup.points) p *= random.real(0.6, 1.4);
+  const Surface r = reference(soup);
+  for (int i = 0; i < 2000; ++i) {
+    const Location from = random_location(r, random);
+    const Vector_3 p = r.evaluate(from).position, target = p + 0.2 * random.vector();
+    const Surface::Located_point to = r.locate({from, r.evaluate(from)}, target, 1e-6);
+    EXPECT_LE((to.point.position - target).norm(), (p - target).norm());
+  }
+}
+
 // Curves
 
 TEST(Arc, takes_the_shorter_way_around_a_closed_curve)

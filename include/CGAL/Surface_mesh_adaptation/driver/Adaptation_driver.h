@@ -158,10 +158,12 @@ private:
     Face_deviations<Surface> deviations(surface_, safety_of_deviation * asked);
     std::optional<Surface> best;
     double least = std::numeric_limits<double>::infinity();
+    int since_best = 0;
     for (int i = 0; measure(deviations) > asked && i < max_corrections_of_deviation; ++i) {
-      if (report_.deviation < least) best = surface_;
+      since_best = report_.deviation < least ? 0 : since_best + 1;
+      if (since_best == 0) best = surface_;
       least = (std::min)(least, report_.deviation);
-      if (!correct(deviations, most_vertices)) break;
+      if (since_best == idle_corrections || !correct(deviations, most_vertices)) break;
     }
     extent_ = 0;
     if (report_.deviation > least) restore(*best, least);
@@ -330,7 +332,8 @@ private:
       split = run_kernel("refine", 1, refine);
       if (refinement_.is_waiting() && split > 0) continue;
       // nor go on where what is split is what has been collapsed
-      if (split <= negligible(refine_share) || (is_anisotropic && i > 0 && split <= collapsed)) break;
+      const bool may_go_round = is_anisotropic || extent_ > 0;
+      if (split <= negligible(refine_share) || (may_go_round && i > 0 && split <= collapsed)) break;
     }
     run_kernel("simplify", max_simplify_sweeps, simplify);
     run_kernel("swap", max_swap_sweeps, swap);
@@ -444,13 +447,13 @@ private:
   static constexpr double largest_scale = 1.2;           // of the metric meanwhile, its logarithm: lengths by 1.8
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
-  static constexpr int max_corrections_of_deviation = 8;
+  static constexpr int max_corrections_of_deviation = 20, idle_corrections = 4;
   static constexpr int max_corrections_of_intersections = 6;
   static constexpr int corrections_for_half = 3; // of the pairs to vanish: else sizes do not part them
-  static constexpr double least_factor_of_deviation = 1.0 / 3; // where a third is not enough, sizes are not what is missing
+  static constexpr double least_factor_of_deviation = 0.01; // where that is not enough, sizes are not what is missing
   static constexpr Limits_of_tightening limits_at_gaps{1.0 / 32, 0, default_gradation}; // gaps are as narrow as they like
   static constexpr double safety_of_deviation = 0.9;     // once one is missed
-  static constexpr double largest_growth = 1.3;          // of the number of vertices, for a deviation
+  static constexpr double largest_growth = 10;           // of the number of vertices, for a deviation
   static constexpr double vertices_of_correction = is_anisotropic ? 4 : 2; // that a face costs which is too far away
   static constexpr double strongest_step = 0.5, weakest_step = 0.8; // of sizes, in one correction
   static constexpr int least_steps_of_fit = 4, max_steps_of_fit = 16;

@@ -100,7 +100,16 @@ private:
     const Vector_3 side = points_[mesh_.apex(h)] - points_[mesh_.source(h)];
     const double length2 = e.squaredNorm(), along = side.dot(e);
     const Vector_3 height = side - along / length2 * e; // at `along` of `length2`
-    return 4 * bulge.dot(height) * (std::max)(along, length2 - along) > height.squaredNorm() * length2;
+    return leaves_sideways(bulge, height, along / length2) || 4 * bulge.dot(height) * (std::max)(along, length2 - along) > height.squaredNorm() * length2;
+  }
+
+  /// Whether the curve is farther off the plane of the facet than the apex is from the edge, where that is next to it, at
+  /// `t` of the edge: the surface goes through the apex, and would be a wall from there to the curve.
+  static bool leaves_sideways(const Vector_3& bulge, const Vector_3& height, double t)
+  {
+    if (!(t > 0 && t < 1)) return false;
+    const Vector_3 sideways = 4 * t * (1 - t) * (bulge - bulge.dot(height) / height.squaredNorm() * height);
+    return sideways.squaredNorm() > height.squaredNorm();
   }
 
   const Mesh_view& mesh_;

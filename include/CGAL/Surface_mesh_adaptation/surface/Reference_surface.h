@@ -220,18 +220,29 @@ public:
   };
 
   /// The location near `start` whose point is closest to `target`, found by walking: the residual is projected onto the
-  /// tangent plane and traced, until it is shorter than `precision`. \pre `start.location.kind` is smooth
+  /// tangent plane and traced, until it is shorter than `precision`. No step leads away from `target`.
+  /// \pre `start.location.kind` is smooth
   Located_point locate(const Located_point& start, const Vector_3& target, double precision) const
   {
     Located_point x = start;
+    double share = 1; // of the residual: where patches are much longer than their triangles, all of it would lead too far
     for (int i = 0; i < max_corrections; ++i) {
-      Vector_3 residual = target - x.point.position;
-      residual -= residual.dot(x.point.normal) * x.point.normal;
+      const Vector_3 d = target - x.point.position, normal = normal_of_walks(x), residual = d - d.dot(normal) * normal;
       if (residual.squaredNorm() <= precision * precision) break;
-      x.location = trace(x.location, residual, false);
-      x.point = evaluate(x.location);
+      const Location l = trace(x.location, share * residual, false);
+      const Surface_point p = evaluate(l);
+      if ((target - p.position).squaredNorm() < d.squaredNorm()) x = {l, p};
+      else share /= 2;
     }
     return x;
+  }
+
+  /// Along which walks do not count distances: where triangles are the surface, their own, for normals that are
+  /// interpolated are far off beside bends that are no features.
+  Vector_3 normal_of_walks(const Located_point& x) const
+  {
+    if constexpr (std::is_same_v<Reconstruction, Flat_reconstruction>) return face_frame(x.location.cell).normal.normalized();
+    else return x.point.normal;
   }
 
   /// Arc lengths on `curve` of two adjacent vertices on it: those of the ends of the shorter arc between them, so
