@@ -332,8 +332,8 @@ private:
       split = run_kernel("refine", 1, refine);
       if (refinement_.is_waiting() && split > 0) continue;
       // nor go on where what is split is what has been collapsed
-      const bool may_go_round = is_anisotropic || extent_ > 0;
-      if (split <= negligible(refine_share) || (may_go_round && i > 0 && split <= collapsed)) break;
+      const bool may_go_round = is_anisotropic ? i > 0 : extent_ > 0 && i > 1;
+      if (split <= negligible(refine_share) || (may_go_round && split <= collapsed)) break;
     }
     run_kernel("simplify", max_simplify_sweeps, simplify);
     run_kernel("swap", max_swap_sweeps, swap);

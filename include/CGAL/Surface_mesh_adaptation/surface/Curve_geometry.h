@@ -74,7 +74,7 @@ private:
     if (is_side || !strokes.is_on_arc(i) || (is_beside_plane(a) && is_beside_plane(b))) return straight;
     const Vector_3 ta = tangent_in_planes(a, b, c.tangents[i]), tb = tangent_in_planes(a, b, c.tangents[i + 1]);
     const Vector_3 off = bulge(feature_handles(e, ta, tb));
-    if (leaves_facet(a, off) || (b != no_index && leaves_facet(b, off))) return straight;
+    if (leaves_facet(a, off) || (b != no_index ? leaves_facet(b, off) : leaves_sideways(a, off))) return straight;
     return {ta, tb};
   }
 
@@ -96,20 +96,34 @@ private:
   /// slivers that fill an arc turn over where their edge becomes that arc.
   bool leaves_facet(Index h, const Vector_3& bulge) const
   {
-    const Vector_3 e = points_[mesh_.target(h)] - points_[mesh_.source(h)];
-    const Vector_3 side = points_[mesh_.apex(h)] - points_[mesh_.source(h)];
-    const double length2 = e.squaredNorm(), along = side.dot(e);
-    const Vector_3 height = side - along / length2 * e; // at `along` of `length2`
-    return leaves_sideways(bulge, height, along / length2) || 4 * bulge.dot(height) * (std::max)(along, length2 - along) > height.squaredNorm() * length2;
+    const Apex apex = apex_beside(h);
+    return 4 * bulge.dot(apex.height) * (std::max)(apex.t, 1 - apex.t) > apex.height.squaredNorm();
   }
 
-  /// Whether the curve is farther off the plane of the facet than the apex is from the edge, where that is next to it, at
-  /// `t` of the edge: the surface goes through the apex, and would be a wall from there to the curve.
-  static bool leaves_sideways(const Vector_3& bulge, const Vector_3& height, double t)
+  /// Whether the curve is farther off the plane of the facet than the apex is from the edge, where that is next to it: at a
+  /// boundary the surface goes through the apex alone, and would be a wall from there to the curve.
+  bool leaves_sideways(Index h, const Vector_3& bulge) const
   {
-    if (!(t > 0 && t < 1)) return false;
-    const Vector_3 sideways = 4 * t * (1 - t) * (bulge - bulge.dot(height) / height.squaredNorm() * height);
-    return sideways.squaredNorm() > height.squaredNorm();
+    const Apex apex = apex_beside(h);
+    if (!(apex.t > 0 && apex.t < 1)) return false;
+    const double height2 = apex.height.squaredNorm();
+    const Vector_3 sideways = 4 * apex.t * (1 - apex.t) * (bulge - bulge.dot(apex.height) / height2 * apex.height);
+    return sideways.squaredNorm() > height2;
+  }
+
+  /// Where the apex of a facet is beside an edge: at `t` of that, with `height` from there.
+  struct Apex
+  {
+    double t;
+    Vector_3 height;
+  };
+
+  Apex apex_beside(Index h) const
+  {
+    const Vector_3 e = points_[mesh_.target(h)] - points_[mesh_.source(h)];
+    const Vector_3 side = points_[mesh_.apex(h)] - points_[mesh_.source(h)];
+    const double t = side.dot(e) / e.squaredNorm();
+    return {t, side - t * e};
   }
 
   const Mesh_view& mesh_;

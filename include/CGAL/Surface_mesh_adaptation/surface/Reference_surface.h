@@ -220,29 +220,34 @@ public:
   };
 
   /// The location near `start` whose point is closest to `target`, found by walking: the residual is projected onto the
-  /// tangent plane and traced, until it is shorter than `precision`. No step leads away from `target`.
+  /// tangent plane and traced, until it is shorter than `precision`. The nearest point of the way counts, and no step leads
+  /// far away: where patches are much longer than their triangles, all of the residual would.
   /// \pre `start.location.kind` is smooth
   Located_point locate(const Located_point& start, const Vector_3& target, double precision) const
   {
-    Located_point x = start;
-    double share = 1; // of the residual: where patches are much longer than their triangles, all of it would lead too far
+    Located_point x = start, best = start;
+    double share = 1; // of the residual
     for (int i = 0; i < max_corrections; ++i) {
       const Vector_3 d = target - x.point.position, normal = normal_of_walks(x), residual = d - d.dot(normal) * normal;
       if (residual.squaredNorm() <= precision * precision) break;
       const Location l = trace(x.location, share * residual, false);
-      const Surface_point p = evaluate(l);
-      if ((target - p.position).squaredNorm() < d.squaredNorm()) x = {l, p};
+      const Located_point next{l, evaluate(l)};
+      const double distance2 = (next.point.position - target).squaredNorm();
+      if (distance2 < (best.point.position - target).squaredNorm()) best = next;
+      if (distance2 < largest_detour * largest_detour * d.squaredNorm()) x = next;
       else share /= 2;
     }
-    return x;
+    return best;
   }
 
   /// Along which walks do not count distances: where triangles are the surface, their own, for normals that are
   /// interpolated are far off beside bends that are no features.
   Vector_3 normal_of_walks(const Located_point& x) const
   {
-    if constexpr (std::is_same_v<Reconstruction, Flat_reconstruction>) return face_frame(x.location.cell).normal.normalized();
-    else return x.point.normal;
+    if constexpr (std::is_same_v<Reconstruction, Flat_reconstruction>)
+      return face_frame(x.location.cell).normal.normalized();
+    else
+      return x.point.normal;
   }
 
   /// Arc lengths on `curve` of two adjacent vertices on it: those of the ends of the shorter arc between them, so
@@ -405,6 +410,7 @@ private:
   }
 
   static constexpr int max_crossings = 256; // a path this long means a metric far coarser than the reference
+  static constexpr double largest_detour = 1.2; // of distances in a step: over a bend they may grow
   static constexpr int max_corrections = 4; // each one squares the error of a smooth surface
 
   struct Face_frame
