@@ -117,6 +117,17 @@ inline Soup icosahedron()
   return s;
 }
 
+/// Puts a vertex at `p` into the triangle `f`, which becomes three.
+inline void split_triangle(Soup& soup, std::size_t f, const Vector_3& p)
+{
+  const Triangle t = soup.triangles[f];
+  const auto v = Index(soup.points.size());
+  soup.points.push_back(p);
+  soup.triangles[f] = {t[0], t[1], v};
+  soup.triangles.push_back({t[1], t[2], v});
+  soup.triangles.push_back({t[2], t[0], v});
+}
+
 /// Each triangle cut into four at the middles of its edges.
 inline Soup subdivided(const Soup& soup)
 {

@@ -1734,11 +1734,7 @@ Soup ellipsoid_with_flat_stars(Random& random)
   for (std::size_t f = 0, n = soup.triangles.size(); f < n; ++f) {
     if (random.real(0, 1) > 0.13) continue;
     const auto t = soup.triangles[f];
-    const auto v = SMA::Index(soup.points.size());
-    soup.points.push_back((soup.points[t[0]] + soup.points[t[1]] + soup.points[t[2]]) / 3);
-    soup.triangles[f] = {t[0], t[1], v};
-    soup.triangles.push_back({t[1], t[2], v});
-    soup.triangles.push_back({t[2], t[0], v});
+    shapes::split_triangle(soup, f, (soup.points[t[0]] + soup.points[t[1]] + soup.points[t[2]]) / 3);
   }
   return soup;
 }

@@ -287,11 +287,8 @@ Soup cylinder_with_cap(Random& random)
   }) - soup.triangles.begin());
   const shapes::Triangle t = soup.triangles[f];
   const double u = random.real(0.35, 0.65), height = random.real(0.02, 0.1);
-  const auto v = decltype(t[0])(soup.points.size());
-  soup.points.push_back((1 - height) * ((1 - u) * soup.points[t[0]] + u * soup.points[t[1]]) + height * soup.points[t[2]]);
-  soup.triangles[f] = {t[0], t[1], v};
-  soup.triangles.push_back({t[1], t[2], v});
-  soup.triangles.push_back({t[2], t[0], v});
+  const Vector_3 foot = (1 - u) * soup.points[t[0]] + u * soup.points[t[1]];
+  shapes::split_triangle(soup, f, (1 - height) * foot + height * soup.points[t[2]]);
   return soup;
 }
 

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -240,16 +241,6 @@ public:
     return best;
   }
 
-  /// Along which walks do not count distances: where triangles are the surface, their own, for normals that are
-  /// interpolated are far off beside bends that are no features.
-  Vector_3 normal_of_walks(const Located_point& x) const
-  {
-    if constexpr (std::is_same_v<Reconstruction, Flat_reconstruction>)
-      return face_frame(x.location.cell).normal.normalized();
-    else
-      return x.point.normal;
-  }
-
   /// Arc lengths on `curve` of two adjacent vertices on it: those of the ends of the shorter arc between them, so
   /// that the second may exceed the length of the curve or be negative on a closed curve.
   std::pair<double, double> arc(Index curve, const Location& a, const Location& b) const
@@ -436,6 +427,16 @@ private:
   {
     const double across = step.dot(edge.cross(from.normal)) / std::sqrt(from.squared_double_area * to.squared_double_area);
     return step.dot(edge) * edge + across * edge.cross(to.normal);
+  }
+
+  /// Along which walks do not count distances: where triangles are the surface, their own, for normals that are
+  /// interpolated are far off beside bends that are no features.
+  Vector_3 normal_of_walks(const Located_point& x) const
+  {
+    if constexpr (std::is_same_v<Reconstruction, Flat_reconstruction>)
+      return face_frame(x.location.cell).normal.normalized();
+    else
+      return x.point.normal;
   }
 
   /// Moves `b` by `step`, or to the border of the face: then `step` is shortened by what was used and the corner
