@@ -71,7 +71,7 @@ public:
     if constexpr (!std::is_same_v<IsFitted, std::false_type>)
       if (is_fitted) {
         fit(shape_weight);
-        Face_deviations<Surface> deviations(surface_, aims.deviation);
+        Face_deviations<Surface> deviations(execution_, surface_, aims.deviation);
         if (aims.deviation > 0) measure(deviations);
       }
     const bool is_current = aims.number_of_vertices == 0 && !is_fitted && !is_restored_;
@@ -151,22 +151,30 @@ private:
 
   /// Tightens the metric around the faces that leave the surface by more than is asked for, and adapts the mesh to that
   /// there. Those that leave it most go first: the number of vertices is not to grow without end where sizes are not
-  /// what is missing, as at edges of the input that faces cross. Keeps the mesh that comes nearest to what is asked for.
+  /// what is missing, as at edges of the input that faces cross. One place that cannot be mended does not keep others from
+  /// it. Keeps the mesh that comes nearest to what is asked for.
   void meet_deviation(double asked)
   {
     const double most_vertices = largest_growth * double(surface_.mesh.number_of_vertices());
-    Face_deviations<Surface> deviations(surface_, safety_of_deviation * asked);
+    Face_deviations<Surface> deviations(execution_, surface_, safety_of_deviation * asked);
     std::optional<Surface> best;
-    double least = std::numeric_limits<double>::infinity();
-    int since_best = 0;
+    double of_best = infinity, least = infinity, least_excess = infinity;
+    int idle = 0;
     for (int i = 0; measure(deviations) > asked && i < max_corrections_of_deviation; ++i) {
-      since_best = report_.deviation < least ? 0 : since_best + 1;
-      if (since_best == 0) best = surface_;
+      const double excess = deviations.excess(execution_, asked);
+      const bool is_as_near = report_.deviation < largest_of_equals * least;
+      const bool is_best = report_.deviation < least || (is_as_near && excess < least_excess);
+      idle = is_best || excess < worthwhile_excess * least_excess ? 0 : idle + 1;
+      if (is_best) {
+        best = surface_;
+        of_best = report_.deviation;
+      }
       least = (std::min)(least, report_.deviation);
-      if (since_best == idle_corrections || !correct(deviations, most_vertices)) break;
+      least_excess = (std::min)(least_excess, excess);
+      if (idle == idle_corrections || !correct(deviations, most_vertices)) break;
     }
     extent_ = 0;
-    if (report_.deviation > least) restore(*best, least);
+    if (report_.deviation > of_best) restore(*best, of_best);
   }
 
   /// One correction of the faces that leave the surface. Returns whether there was anything left to do.
@@ -448,6 +456,9 @@ private:
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
   static constexpr int max_corrections_of_deviation = 20, idle_corrections = 4;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr double largest_of_equals = 1.05; // of the largest deviations of two meshes
+  static constexpr double worthwhile_excess = 0.9;  // what is left of it after a correction that gained something
   static constexpr int max_corrections_of_intersections = 6;
   static constexpr int corrections_for_half = 3; // of the pairs to vanish: else sizes do not part them
   static constexpr double least_factor_of_deviation = 0.01; // where that is not enough, sizes are not what is missing

@@ -61,10 +61,6 @@ inline Metric_tensor_3 curvature_of_bend(const Vector_3& a, const Vector_3& b, c
   return Metric_tensor_3(outer_product(3 * half_turn / mean_height * across, across));
 }
 
-/// Whether the faces of the input themselves are the surface.
-template <class Reference> constexpr bool is_flat = false;
-template <template <class> class Reference> constexpr bool is_flat<Reference<Flat_reconstruction>> = true;
-
 } // namespace internal
 
 /// What the curvature asks for at every vertex, up to scale: a tensor with the principal directions as eigenvectors and
@@ -83,8 +79,8 @@ std::vector<Metric_tensor_3> curvature_tensors(const Execution& execution, const
   const Corner_jets jets = estimate_jets(execution, mesh, points, samples);
   const auto has_bend = [&](Index h) {
     if (samples == Jet_fit::noisy || mesh.is_feature(h) || mesh.is_border(h)) return false;
-    return internal::is_flat<Reference> || (reference.features.vertex_class[mesh.source(h)] == Vertex_class::smooth &&
-                                            !jets.agrees[jets.of_corner[h]]);
+    return Reference::is_flat || (reference.features.vertex_class[mesh.source(h)] == Vertex_class::smooth &&
+                                  !jets.agrees[jets.of_corner[h]]);
   };
   return internal::intersect_sectors(execution, mesh, jets.of_corner, [&](Index sector) {
     return with_bounded_anisotropy(jets.shape_operators[sector], max_anisotropy);

@@ -51,6 +51,9 @@ template <class Reconstruction>
 class Reference_surface
 {
 public:
+  /// Whether the faces of the input themselves are the surface.
+  static constexpr bool is_flat = std::is_same_v<Reconstruction, Flat_reconstruction>;
+
   Mesh_view mesh;
   std::vector<Vector_3> points;
   Features features;
@@ -433,7 +436,7 @@ private:
   /// interpolated are far off beside bends that are no features.
   Vector_3 normal_of_walks(const Located_point& x) const
   {
-    if constexpr (std::is_same_v<Reconstruction, Flat_reconstruction>)
+    if constexpr (is_flat)
       return face_frame(x.location.cell).normal.normalized();
     else
       return x.point.normal;

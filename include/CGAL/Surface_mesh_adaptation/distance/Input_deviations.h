@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// How far the vertices and edges of the input are from an adapted mesh, while that changes at some places.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_DISTANCE_INPUT_DEVIATIONS_H
+#define CGAL_SURFACE_MESH_ADAPTATION_DISTANCE_INPUT_DEVIATIONS_H
+
+#include <CGAL/Surface_mesh_adaptation/distance/Face_keys.h>
+#include <CGAL/Surface_mesh_adaptation/distance/Triangle_tree.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+
+/// The distances of the vertices of the input from a mesh, and, if asked for, those of its edges: where the faces of the
+/// input are the surface itself, what others cut off is farthest from these at edges. Which faces are next to vertices and
+/// edges is known from the last time.
+class Input_deviations
+{
+public:
+  /// How far a place of the input is.
+  struct Entry
+  {
+    Index face;      ///< next to it
+    Index of_input;  ///< the vertex of the input, or a halfedge along its edge
+    double distance; ///< as it counts
+  };
+
+  /// Both must outlive this.
+  Input_deviations(const Mesh_view& input, const std::vector<Vector_3>& points, bool has_edges)
+    : input_(input), points_(points), has_edges_(has_edges), keys_(points.size(), 0)
+  {}
+
+  /// Measures what is next to a face that was not there the last time. Distances count as many times as `weight(f)` says for
+  /// faces `f` of the input. Along edges those within `enough` may be left out, and others are up to a twentieth larger.
+  /// \par Complexity
+  /// O(n) and O(log n) for each of these vertices and edges, times the faces that an edge crosses beyond `enough`
+  template <class Execution, class Points, class Weight>
+  std::vector<Entry> update(const Execution& execution, const Mesh_view& mesh, const Points& points,
+                            const Face_keys& keys, double enough, const Weight& weight)
+  {
+    std::vector<std::uint8_t> is_lost(points_.size());
+    for_each_index(execution, is_lost.size(), [&](std::size_t v) { is_lost[v] = keys.face(keys_[v]) == no_index; });
+    const std::vector<Index> vertices = pack(execution, is_lost.size(), [&](std::size_t v) { return is_lost[v] != 0; });
+    const std::vector<Index> edges = lost_edges(execution, is_lost, keys);
+    if (vertices.empty() && edges.empty()) return {};
+    const Triangle_tree tree(execution, mesh, points);
+    std::vector<Entry> entries = measure_vertices(execution, tree, vertices, weight);
+    for (const Entry& e : entries) keys_[e.of_input] = keys[e.face];
+    const std::vector<Entry> along = measure_edges(execution, tree, keys, edges, enough, weight);
+    for (const Entry& e : along) crossed_.push_back({e.of_input, keys[e.face]});
+    entries.insert(entries.end(), along.begin(), along.end());
+    return entries;
+  }
+
+private:
+  /// A face that an edge passes between those next to its ends.
+  struct Crossed_face
+  {
+    Index edge;
+    std::uint64_t key;
+  };
+
+  /// A part of an edge, with the places in the tree of the triangles next to its ends.
+  struct Part
+  {
+    Vector_3 p, q;
+    std::size_t near_p, near_q;
+  };
+
+  /// Edges with an end that is lost, or a face between them; of the others the faces between the ends stay known.
+  template <class Execution>
+  std::vector<Index> lost_edges(const Execution& execution, const std::vector<std::uint8_t>& is_vertex_lost,
+                                const Face_keys& keys)
+  {
+    if (!has_edges_) return {};
+    std::vector<std::uint8_t> is_lost(input_.number_of_halfedges());
+    for_each_index(execution, is_lost.size(), [&](std::size_t h) {
+      is_lost[h] = input_.is_edge_owner(Index(h)) &&
+                   (is_vertex_lost[input_.source(Index(h))] != 0 || is_vertex_lost[input_.target(Index(h))] != 0);
+    });
+    for (const Crossed_face& c : crossed_)
+      if (keys.face(c.key) == no_index) is_lost[c.edge] = 1;
+    crossed_.erase(std::remove_if(crossed_.begin(), crossed_.end(), [&](const Crossed_face& c) { return is_lost[c.edge] != 0; }),
+                   crossed_.end());
+    return pack(execution, is_lost.size(), [&](std::size_t h) { return is_lost[h] != 0; });
+  }
+
+  template <class Execution, class Weight>
+  std::vector<Entry> measure_vertices(const Execution& execution, const Triangle_tree& tree,
+                                      const std::vector<Index>& vertices, const Weight& weight) const
+  {
+    const auto largest_weight = [&](Index v) {
+      double largest = 0;
+      input_.for_each_outgoing(v, [&](Index h) { largest = (std::max)(largest, weight(Mesh_view::face(h))); });
+      return largest;
+    };
+    std::vector<Entry> entries(vertices.size());
+    for_each_chunk(execution, vertices.size(), default_chunk_length, [&](std::size_t, std::size_t begin, std::size_t end) {
+      std::size_t guess = vertices[begin] * tree.size() / points_.size(); // both are in order along one curve, more or less
+      for (std::size_t i = begin; i < end; ++i) {
+        const Index v = vertices[i];
+        const Vector_3& p = points_[v];
+        const Triangle_tree::Nearest nearest = tree.nearest(p, tree.towards(p, guess));
+        guess = nearest.triangle;
+        entries[i] = {tree.face(guess), v, largest_weight(v) * std::sqrt(nearest.squared_distance)};
+      }
+    });
+    return entries;
+  }
+
+  template <class Execution, class Weight>
+  std::vector<Entry> measure_edges(const Execution& execution, const Triangle_tree& tree, const Face_keys& keys,
+                                   const std::vector<Index>& edges, double enough, const Weight& weight) const
+  {
+    const auto larger_weight = [&](Index h) {
+      const double here = weight(Mesh_view::face(h));
+      return input_.is_border(h) ? here : (std::max)(here, weight(Mesh_view::face(input_.twin[h])));
+    };
+    return gather<Entry>(execution, edges.size(), default_chunk_length,
+                         [&](std::size_t begin, std::size_t end, std::vector<Entry>& entries) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const double w = larger_weight(edges[i]);
+        const std::size_t first = entries.size();
+        measure_edge(tree, keys, edges[i], enough / w, entries);
+        for (std::size_t k = first; k < entries.size(); ++k) entries[k].distance *= w;
+      }
+    });
+  }
+
+  /// Halves the edge of `h` until each part is above a triangle next to one of its ends: the distance from a triangle is
+  /// convex, so that it is largest at an end.
+  void measure_edge(const Triangle_tree& tree, const Face_keys& keys, Index h, double enough,
+                    std::vector<Entry>& entries) const
+  {
+    const auto place = [&](Index v) { return tree.place(keys.face(keys_[v])); };
+    const Index a = input_.source(h), b = input_.target(h);
+    Ring<Part> parts{{points_[a], points_[b], place(a), place(b)}};
+    double largest = 0;
+    while (!parts.empty()) {
+      const Part part = parts.back();
+      parts.pop_back();
+      if (is_bounded(tree, part, (std::max)(enough, (1 + precision) * largest))) continue;
+      const Vector_3 middle = (part.p + part.q) / 2;
+      const std::size_t beside = tree.towards(middle, part.near_p);
+      Triangle_tree::Nearest nearest{squared_distance_to_triangle(middle, tree[beside]), beside};
+      const bool is_far = nearest.squared_distance > enough * enough;
+      if (is_far) nearest = tree.nearer_than(nearest, middle);
+      const double distance = std::sqrt(nearest.squared_distance);
+      if (is_far) largest = (std::max)(largest, distance);
+      entries.push_back({tree.face(nearest.triangle), h, is_far ? distance : 0});
+      parts.push_back({part.p, middle, part.near_p, nearest.triangle});
+      parts.push_back({middle, part.q, nearest.triangle, part.near_q});
+    }
+  }
+
+  static bool is_bounded(const Triangle_tree& tree, const Part& part, double bound)
+  {
+    const auto squared_distance = [&](const Vector_3& x, std::size_t i) {
+      return squared_distance_to_triangle(x, tree[i]);
+    };
+    const double squared_bound = bound * bound, p = squared_distance(part.p, part.near_p),
+                 q = squared_distance(part.q, part.near_q);
+    return (squared_distance(part.q, part.near_p) <= squared_bound && p <= squared_bound) ||
+           (squared_distance(part.p, part.near_q) <= squared_bound && q <= squared_bound) ||
+           std::sqrt(p) + std::sqrt(q) + (part.q - part.p).norm() <= 2 * bound;
+  }
+
+  static constexpr double precision = 0.05; // of distances along edges
+
+  const Mesh_view& input_;
+  const std::vector<Vector_3>& points_;
+  bool has_edges_;
+  std::vector<std::uint64_t> keys_;   // of the face next to each vertex
+  std::vector<Crossed_face> crossed_; // by edges, but those next to their ends
+};
+
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_DISTANCE_INPUT_DEVIATIONS_H
