@@ -70,8 +70,10 @@ struct Adaptation_report
   double certified_distance = 0;   ///< if one was: an upper bound of their Hausdorff distance, by 2 % of it too large
                                    ///< at most
   double deviation = 0;            ///< with the tolerance of a `Curvature_metric_field`: largest distance from the surface
-                                   ///< at some places of each face, and of a vertex of the input from the faces; over
-                                   ///< faces with one of their own (`face_deviation_map`) in proportion to that
+                                   ///< at some places of each face, with `Flat_reconstruction` at all, and of the
+                                   ///< surface from the faces at vertices and edges of the input. Over faces with one
+                                   ///< of their own (`face_deviation_map`) it is in proportion to that; what is within
+                                   ///< nine tenths of the tolerance may be larger
   Self_intersection_counts self_intersections; ///< of the input and the output
   double seconds = 0;  ///< time of the whole run
 

@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -179,6 +180,38 @@ TEST(Face_deviations, on_triangles_are_the_hausdorff_distance)
   }
 }
 
+/// The largest distance of many points of the patches of `input` from `mesh`.
+double distance_of_patches(const Mesh& input, const Mesh& mesh)
+{
+  const Soup of_input = shapes::soup(input), of_mesh = shapes::soup(mesh);
+  const SMA::Reference_surface<SMA::Gregory_reconstruction> reference(sequential, shapes::view(of_input), of_input.points,
+                                                                      SMA::Feature_parameters());
+  const SMA::Triangle_tree tree(sequential, shapes::view(of_mesh), of_mesh.points);
+  const int n = 40;
+  double largest = 0;
+  for (SMA::Index f = 0; f < of_input.triangles.size(); ++f)
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; i + j <= n; ++j) {
+        const Vector_3 p = reference.evaluate({SMA::Vertex_class::smooth, f, double(i) / n, double(j) / n}).position;
+        largest = (std::max)(largest, tree.nearest(p).squared_distance);
+      }
+  return std::sqrt(largest);
+}
+
+TEST(Face_deviations, on_patches_tell_their_distance)
+{
+  Random random(24);
+  for (int i = 0; i < 12; ++i) {
+    const Mesh input = crumpled_sphere(random);
+    const double tolerance = random.real(0.002, 0.01), asked = tolerance * diagonal(input);
+    SMA::Curvature_metric_field field(tolerance);
+    field.hmin = i % 2 == 0 ? 0 : 5 * asked; // not reached
+    Mesh mesh = input;
+    const double deviation = SMA::adapt_surface_mesh(sequential, mesh, field).deviation;
+    EXPECT_LE(distance_of_patches(input, mesh), 1.2 * (std::max)(deviation, 0.9 * asked)) << i;
+  }
+}
+
 // The tolerance
 
 /// What the field alone makes of the mesh: an intersection of one has the same sizes, and no tolerance.
@@ -310,7 +343,7 @@ TEST(Tolerance_of_curvature, is_said_to_be_missed_where_no_smaller_sizes_are_all
   EXPECT_NE(report.warnings[0].find("times the tolerance of the sizes"), std::string::npos) << report.warnings[0];
 }
 
-/// Few large triangles say little of the curvature.
+/// Few large triangles say little of the curvature, and bends between them take many small ones.
 TEST(Tolerance_of_curvature, holds_on_coarse_meshes)
 {
   Random random(21);
@@ -322,8 +355,8 @@ TEST(Tolerance_of_curvature, holds_on_coarse_meshes)
     Mesh mesh = shapes::mesh<Mesh>(soup), flat = mesh;
     EXPECT_LE(SMA::adapt_surface_mesh(sequential, mesh, field).deviation, asked) << i;
     const auto on_triangles = params::surface_reconstruction(SMA::Flat_reconstruction());
-    EXPECT_LE(SMA::adapt_surface_mesh(sequential, flat, field, on_triangles).deviation, 1.2 * asked) << i;
-    EXPECT_LE(distances::Original(shapes::mesh<Mesh>(soup)).distance_to(flat, 50000).largest, 1.2 * asked) << i;
+    EXPECT_LE(SMA::adapt_surface_mesh(sequential, flat, field, on_triangles).deviation, 1.3 * asked) << i;
+    EXPECT_LE(distances::Original(shapes::mesh<Mesh>(soup)).distance_to(flat, 50000).largest, 1.3 * asked) << i;
   }
 }
 

@@ -26,10 +26,9 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 
 /// For each face of an adapted mesh its largest distance from the surface, at its centroid and the middles of its
-/// edges, and that of the vertices of the input next to it. Where the faces of the input are the surface, these are bounds
-/// for all points of the face, and for all of the edges of the input next to it. Where the aims of the metric have a
-/// deviation of its own for a face of the input, distances above that count as many times as it is smaller than the common
-/// one.
+/// edges, and that of the vertices and edges of the input next to it. Where the faces of the input are the surface, the
+/// former are bounds for all points of the face. Where the aims of the metric have a deviation of its own for a face of the
+/// input, distances above that count as many times as it is smaller than the common one.
 template <class Surface>
 class Face_deviations
 {
@@ -37,8 +36,7 @@ public:
   /// Beyond `allowed` it is worth to look for a nearer point of the surface. The surface must outlive this.
   template <class Execution>
   Face_deviations(const Execution& execution, const Surface& surface, double allowed)
-    : surface_(surface), mesh_(surface.mesh), allowed_(allowed)
-    , of_input_(surface.reference().mesh, surface.reference().points, is_flat)
+    : surface_(surface), mesh_(surface.mesh), allowed_(allowed), of_input_(surface)
   {
     if (is_flat) input_.emplace(execution, surface.reference().mesh, surface.reference().points);
   }
@@ -60,8 +58,7 @@ public:
     keys_ = std::move(keys);
     deviations_ = std::move(deviations);
     const auto weight_of = [&](Index f) { return weight(f); };
-    for (const Input_deviations::Entry& e :
-         of_input_.update(execution, mesh_, surface_.points, keys_, allowed_, weight_of))
+    for (const auto& e : of_input_.update(execution, keys_, allowed_, weight_of))
       deviations_[e.face] = (std::max)(deviations_[e.face], e.distance);
   }
 
@@ -182,7 +179,7 @@ private:
   const Mesh_view& mesh_;
   double allowed_;
   std::optional<Triangle_tree> input_; // where its faces are the surface
-  Input_deviations of_input_;
+  Input_deviations<Surface> of_input_;
   Face_keys keys_;
   std::vector<double> deviations_;
 };

@@ -40,7 +40,8 @@ public:
   /// The face with this key, or `no_index`.
   Index face(std::uint64_t key) const
   {
-    const auto at = std::lower_bound(order_.begin(), order_.end(), key, [&](Index f, std::uint64_t k) { return keys_[f] < k; });
+    const auto is_less = [&](Index f, std::uint64_t k) { return keys_[f] < k; };
+    const auto at = std::lower_bound(order_.begin(), order_.end(), key, is_less);
     return at != order_.end() && keys_[*at] == key ? *at : no_index;
   }
 

@@ -9,19 +9,21 @@
 #include <CGAL/Surface_mesh_adaptation/distance/Triangle_tree.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Reference_surface.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// The distances of the vertices of the input from a mesh, and, if asked for, those of its edges: where the faces of the
-/// input are the surface itself, what others cut off is farthest from these at edges. Which faces are next to vertices and
-/// edges is known from the last time.
+/// The distances of the vertices of the input from a mesh and those of the surface at its edges: what faces cut off where
+/// the surface bends most. Which faces are next to vertices and edges is known from the last time.
+template <class Surface>
 class Input_deviations
 {
 public:
@@ -33,25 +35,25 @@ public:
     double distance; ///< as it counts
   };
 
-  /// Both must outlive this.
-  Input_deviations(const Mesh_view& input, const std::vector<Vector_3>& points, bool has_edges)
-    : input_(input), points_(points), has_edges_(has_edges), keys_(points.size(), 0)
+  /// The surface must outlive this.
+  explicit Input_deviations(const Surface& surface)
+    : surface_(surface), input_(surface.reference().mesh), points_(surface.reference().points), keys_(points_.size(), 0)
   {}
 
   /// Measures what is next to a face that was not there the last time. Distances count as many times as `weight(f)` says for
   /// faces `f` of the input. Along edges those within `enough` may be left out, and others are up to a twentieth larger.
+  /// \pre `keys` are those of the faces of the mesh, none of which is removed
   /// \par Complexity
-  /// O(n) and O(log n) for each of these vertices and edges, times the faces that an edge crosses beyond `enough`
-  template <class Execution, class Points, class Weight>
-  std::vector<Entry> update(const Execution& execution, const Mesh_view& mesh, const Points& points,
-                            const Face_keys& keys, double enough, const Weight& weight)
+  /// O(n) and O(log n) for each of these vertices and edges, times the faces that an edge crosses
+  template <class Execution, class Weight>
+  std::vector<Entry> update(const Execution& execution, const Face_keys& keys, double enough, const Weight& weight)
   {
     std::vector<std::uint8_t> is_lost(points_.size());
     for_each_index(execution, is_lost.size(), [&](std::size_t v) { is_lost[v] = keys.face(keys_[v]) == no_index; });
     const std::vector<Index> vertices = pack(execution, is_lost.size(), [&](std::size_t v) { return is_lost[v] != 0; });
     const std::vector<Index> edges = lost_edges(execution, is_lost, keys);
     if (vertices.empty() && edges.empty()) return {};
-    const Triangle_tree tree(execution, mesh, points);
+    const Triangle_tree tree(execution, surface_.mesh, surface_.points);
     std::vector<Entry> entries = measure_vertices(execution, tree, vertices, weight);
     for (const Entry& e : entries) keys_[e.of_input] = keys[e.face];
     const std::vector<Entry> along = measure_edges(execution, tree, keys, edges, enough, weight);
@@ -68,11 +70,19 @@ private:
     std::uint64_t key;
   };
 
-  /// A part of an edge, with the places in the tree of the triangles next to its ends.
+  /// A place on an edge.
+  struct Place
+  {
+    double at;        ///< from 0 at the source to 1
+    Vector_3 point;
+    std::size_t near; ///< place in the tree of the triangle next to it
+  };
+
+  /// A part of an edge that leaves its chord by about `bulge`.
   struct Part
   {
-    Vector_3 p, q;
-    std::size_t near_p, near_q;
+    Place from, to;
+    double bulge;
   };
 
   /// Edges with an end that is lost, or a face between them; of the others the faces between the ends stay known.
@@ -80,7 +90,6 @@ private:
   std::vector<Index> lost_edges(const Execution& execution, const std::vector<std::uint8_t>& is_vertex_lost,
                                 const Face_keys& keys)
   {
-    if (!has_edges_) return {};
     std::vector<std::uint8_t> is_lost(input_.number_of_halfedges());
     for_each_index(execution, is_lost.size(), [&](std::size_t h) {
       is_lost[h] = input_.is_edge_owner(Index(h)) &&
@@ -88,8 +97,8 @@ private:
     });
     for (const Crossed_face& c : crossed_)
       if (keys.face(c.key) == no_index) is_lost[c.edge] = 1;
-    crossed_.erase(std::remove_if(crossed_.begin(), crossed_.end(), [&](const Crossed_face& c) { return is_lost[c.edge] != 0; }),
-                   crossed_.end());
+    const auto is_of_lost = [&](const Crossed_face& c) { return is_lost[c.edge] != 0; };
+    crossed_.erase(std::remove_if(crossed_.begin(), crossed_.end(), is_of_lost), crossed_.end());
     return pack(execution, is_lost.size(), [&](std::size_t h) { return is_lost[h] != 0; });
   }
 
@@ -136,48 +145,56 @@ private:
   }
 
   /// Halves the edge of `h` until each part is above a triangle next to one of its ends: the distance from a triangle is
-  /// convex, so that it is largest at an end.
+  /// convex, so that along a chord it is largest at an end. Parts of a curve bulge by a quarter of what the whole does.
   void measure_edge(const Triangle_tree& tree, const Face_keys& keys, Index h, double enough,
                     std::vector<Entry>& entries) const
   {
-    const auto place = [&](Index v) { return tree.place(keys.face(keys_[v])); };
-    const Index a = input_.source(h), b = input_.target(h);
-    Ring<Part> parts{{points_[a], points_[b], place(a), place(b)}};
-    double largest = 0;
+    const auto end = [&](double at, Index v) { return Place{at, points_[v], tree.place(keys.face(keys_[v]))}; };
+    Ring<Part> parts{{end(0, input_.source(h)), end(1, input_.target(h)), is_flat ? 0 : infinity}};
+    double largest = (std::max)(distance(tree, parts[0].from), distance(tree, parts[0].to));
     while (!parts.empty()) {
       const Part part = parts.back();
       parts.pop_back();
-      if (is_bounded(tree, part, (std::max)(enough, (1 + precision) * largest))) continue;
-      const Vector_3 middle = (part.p + part.q) / 2;
-      const std::size_t beside = tree.towards(middle, part.near_p);
-      Triangle_tree::Nearest nearest{squared_distance_to_triangle(middle, tree[beside]), beside};
-      const bool is_far = nearest.squared_distance > enough * enough;
-      if (is_far) nearest = tree.nearer_than(nearest, middle);
-      const double distance = std::sqrt(nearest.squared_distance);
-      if (is_far) largest = (std::max)(largest, distance);
-      entries.push_back({tree.face(nearest.triangle), h, is_far ? distance : 0});
-      parts.push_back({part.p, middle, part.near_p, nearest.triangle});
-      parts.push_back({middle, part.q, nearest.triangle, part.near_q});
+      if (is_bounded(tree, part, (std::max)(enough, (1 + precision) * largest) - part.bulge)) continue;
+      const double at = (part.from.at + part.to.at) / 2;
+      Place middle{at, surface_.point(location_on_edge(h, at)), part.from.near};
+      middle.near = tree.towards(middle.point, middle.near);
+      double d = distance(tree, middle);
+      if (d > enough) {
+        middle.near = tree.nearer_than({d * d, middle.near}, middle.point).triangle;
+        d = distance(tree, middle);
+        largest = (std::max)(largest, d);
+      }
+      entries.push_back({tree.face(middle.near), h, d > enough ? d : 0});
+      const double bulge = is_flat ? 0 : (middle.point - (part.from.point + part.to.point) / 2).norm() / 4;
+      parts.push_back({part.from, middle, bulge});
+      parts.push_back({middle, part.to, bulge});
     }
+  }
+
+  static double distance(const Triangle_tree& tree, const Place& p)
+  {
+    return std::sqrt(squared_distance_to_triangle(p.point, tree[p.near]));
   }
 
   static bool is_bounded(const Triangle_tree& tree, const Part& part, double bound)
   {
-    const auto squared_distance = [&](const Vector_3& x, std::size_t i) {
-      return squared_distance_to_triangle(x, tree[i]);
+    const auto is_near = [&](const Place& p, std::size_t i) {
+      return squared_distance_to_triangle(p.point, tree[i]) <= bound * bound;
     };
-    const double squared_bound = bound * bound, p = squared_distance(part.p, part.near_p),
-                 q = squared_distance(part.q, part.near_q);
-    return (squared_distance(part.q, part.near_p) <= squared_bound && p <= squared_bound) ||
-           (squared_distance(part.p, part.near_q) <= squared_bound && q <= squared_bound) ||
-           std::sqrt(p) + std::sqrt(q) + (part.q - part.p).norm() <= 2 * bound;
+    if (!(bound > 0)) return false;
+    return (is_near(part.from, part.from.near) && is_near(part.to, part.from.near)) ||
+           (is_near(part.to, part.to.near) && is_near(part.from, part.to.near)) ||
+           distance(tree, part.from) + distance(tree, part.to) + (part.to.point - part.from.point).norm() <= 2 * bound;
   }
 
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr double precision = 0.05; // of distances along edges
+  static constexpr bool is_flat = Surface::Reference::is_flat;
 
+  const Surface& surface_;
   const Mesh_view& input_;
   const std::vector<Vector_3>& points_;
-  bool has_edges_;
   std::vector<std::uint64_t> keys_;   // of the face next to each vertex
   std::vector<Crossed_face> crossed_; // by edges, but those next to their ends
 };
