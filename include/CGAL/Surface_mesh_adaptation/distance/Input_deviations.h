@@ -133,7 +133,7 @@ private:
       const double here = weight(Mesh_view::face(h));
       return input_.is_border(h) ? here : (std::max)(here, weight(Mesh_view::face(input_.twin[h])));
     };
-    return gather<Entry>(execution, edges.size(), default_chunk_length,
+    return gather<Entry>(execution, edges.size(), heavy_chunk_length,
                          [&](std::size_t begin, std::size_t end, std::vector<Entry>& entries) {
       for (std::size_t i = begin; i < end; ++i) {
         const double w = larger_weight(edges[i]);
@@ -155,6 +155,7 @@ private:
     while (!parts.empty()) {
       const Part part = parts.back();
       parts.pop_back();
+      if (part.to.at - part.from.at <= smallest_part) continue;
       if (is_bounded(tree, part, (std::max)(enough, (1 + precision) * largest) - part.bulge)) continue;
       const double at = (part.from.at + part.to.at) / 2;
       Place middle{at, surface_.point(location_on_edge(h, at)), part.from.near};
@@ -189,7 +190,8 @@ private:
   }
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  static constexpr double precision = 0.05; // of distances along edges
+  static constexpr double precision = 0.05;           // of distances along edges
+  static constexpr double smallest_part = 1.0 / 1024; // of an edge, for what is enough may be lost in rounding
   static constexpr bool is_flat = Surface::Reference::is_flat;
 
   const Surface& surface_;
