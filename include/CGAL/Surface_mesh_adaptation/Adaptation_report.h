@@ -75,7 +75,7 @@ struct Adaptation_report
                                    ///< of their own (`face_deviation_map`) it is in proportion to that; what is within
                                    ///< nine tenths of the tolerance may be larger
   Self_intersection_counts self_intersections; ///< of the input and the output
-  double seconds = 0;  ///< time of the whole run
+  double seconds = 0;  ///< time of the kernels, with all that was done again
 
   /// Writes the report as one JSON object.
   void write_json(std::ostream& out) const;

@@ -141,7 +141,8 @@ step at the end: if anything throws, it is as it was.
   \cgalParamNEnd
   \cgalParamNBegin{feature_angle}
     \cgalParamDescription{an edge is a ridge if the normals of its faces differ by more than this; in CAD tessellations by as
-                          much, to one degree, but between facets as large as each other}
+                          much, to one degree, but between facets as large as each other; with a `Curvature_metric_field` by
+                          a third of it where faces across the edge stay farther away than the tolerance}
     \cgalParamType{`double`, in degrees, above 0 and up to 180}
     \cgalParamDefault{`45`}
   \cgalParamNEnd
@@ -308,7 +309,7 @@ step at the end: if anything throws, it is as it was.
     \cgalParamDefault{what the indices and the memory of the machine can hold}
   \cgalParamNEnd
   \cgalParamNBegin{visitor}
-    \cgalParamDescription{follows the run and may stop it}
+    \cgalParamDescription{follows the run and may stop it; where all is done again it sees the rounds again}
     \cgalParamType{a model of `AdaptationVisitor`, or a `std::reference_wrapper` of one}
     \cgalParamDefault{`Adaptation_visitor`}
   \cgalParamNEnd

@@ -40,8 +40,9 @@ struct Uniform_metric_field
 /// tolerance: the size along a principal direction of curvature `k` is `sqrt(6 tolerance / |k|)`, which is exact where
 /// both curvatures have the same sign, and too small by a factor of up to `sqrt(4 / 3)` on saddles. The surface is the
 /// smooth one over the faces of the input, or these with `Flat_reconstruction`. After the rounds sizes are tightened
-/// around faces that are farther away than that, until there are ten times the vertices; the report warns of more
-/// than 1.3 times the tolerance. No distance is certified, see the parameter `tolerance` for that.
+/// around faces that are farther away than that, until there are ten times the vertices. Where faces still are, edges of the
+/// input that turn by a third of the `feature_angle` become ridges, and all is done again, up to three times. The report warns
+/// of that, and of more than 1.3 times the tolerance. No distance is certified, see the parameter `tolerance` for that.
 ///
 /// Lengths are in the unit of the coordinates. An `hmin` above `hmax` or a `max_anisotropy` below 1 makes the adaptation
 /// throw an `Invalid_parameter_error`.

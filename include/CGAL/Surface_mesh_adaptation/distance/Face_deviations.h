@@ -66,6 +66,15 @@ public:
 
   double operator[](Index f) const { return deviations_[f]; }
 
+  /// No more than how far the face `f` is, where distances count more than once.
+  double least_distance(Index f) const
+  {
+    double largest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      largest = (std::max)(largest, weight(surface_.reference().face_at(surface_.locations[corner(f, i)])));
+    return deviations_[f] / largest;
+  }
+
   template <class Execution>
   double largest(const Execution& execution) const
   {

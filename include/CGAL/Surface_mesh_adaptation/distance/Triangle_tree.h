@@ -39,6 +39,13 @@ inline double squared_distance_to_segment(const Vector_3& p, const Vector_3& a, 
 
 namespace internal {
 
+/// The corners of the face of `h`, that of `h` first.
+template <class Points>
+Triangle_points corners_from(const Mesh_view& mesh, const Points& points, Index h)
+{
+  return {points[mesh.source(h)], points[mesh.target(h)], points[mesh.apex(h)]};
+}
+
 /// A triangle, which may be degenerate, of which the distance is asked for by many points.
 class Prepared_triangle
 {

@@ -111,13 +111,6 @@ private:
   static Kernel::Triangle_3 triangle(const Triangle_points& t) { return {point(t[0]), point(t[1]), point(t[2])}; }
 };
 
-/// The corners of the face of `h`, that of `h` first.
-template <class Points>
-Triangle_points corners_from(const Mesh_view& mesh, const Points& points, Index h)
-{
-  return {points[mesh.source(h)], points[mesh.target(h)], points[mesh.apex(h)]};
-}
-
 /// Whether the faces `f` and `g`, of which none is degenerate, meet in more than the vertices and edges that they share.
 template <class Points>
 bool do_intersect(const Mesh_view& mesh, const Points& points, Index f, Index g)

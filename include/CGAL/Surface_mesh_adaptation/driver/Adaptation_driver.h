@@ -152,7 +152,7 @@ private:
   /// Tightens the metric around the faces that leave the surface by more than is asked for, and adapts the mesh to that
   /// there. Those that leave it most go first: the number of vertices is not to grow without end where sizes are not
   /// what is missing, as at edges of the input that faces cross. One place that cannot be mended does not keep others from
-  /// it. Keeps the mesh that comes nearest to what is asked for.
+  /// it. Keeps the mesh that comes nearest to what is asked for, and says where it is still too far away.
   void meet_deviation(double asked)
   {
     const double most_vertices = largest_growth * double(surface_.mesh.number_of_vertices());
@@ -175,6 +175,14 @@ private:
     }
     extent_ = 0;
     if (report_.deviation > of_best) restore(*best, of_best);
+    mark_creases(deviations, asked);
+  }
+
+  /// Where faces stay too far away, creases may be missing, unless sizes may not be as small as the distance.
+  void mark_creases(Face_deviations<Surface>& deviations, double asked)
+  {
+    if (surface_.creases == nullptr || !(report_.deviation > asked) || surface_.background().aims().hmin > asked) return;
+    if (measure(deviations) > asked) surface_.creases->mark(surface_, deviations, asked);
   }
 
   /// One correction of the faces that leave the surface. Returns whether there was anything left to do.

@@ -16,6 +16,7 @@
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/fields/background_of_field.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Adapted_surface.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Late_creases.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Self_intersection_guard.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
@@ -112,11 +113,11 @@ public:
   Adaptation_report run()
   {
     read();
+    creases_.emplace(imported_.mesh, imported_.points, values_->features());
     if (avoids_intersections()) guard_.emplace(imported_.mesh, imported_.points, surroundings_);
     bool is_done = false;
     while (!is_done) {
-      const Reference reference(execution_, imported_.mesh, imported_.points,
-                                guard_ ? guard_->constrained(values_->features()) : values_->features(), given_);
+      const Reference reference(execution_, imported_.mesh, imported_.points, features(), given_);
       with_input_numbers(domain_.graph(), imported_, [&] {
         with_background_within(execution_, field_, Field_input{imported_.vertices, deviations_}, reference, bounds_,
                                [&](const auto& background) { is_done = adapt_to(reference, background); });
@@ -126,12 +127,7 @@ public:
     }
     report_.threads = execution_.concurrency();
     report_.self_intersections = intersections_;
-    if (guard_ && guard_->number_of_kept_faces() > 0)
-      report_.warnings.push_back(std::to_string(guard_->number_of_kept_faces()) +
-                                 " faces of the input stay where it comes too near to itself for the sizes");
-    if (intersections_.after > intersections_.before)
-      report_.warnings.push_back("faces intersect that did not, or in more pairs than before: ask to "
-                                 "`avoid_self_intersections` (`--no-self-intersections`)");
+    warn();
     return report_;
   }
 
@@ -145,6 +141,26 @@ private:
     has_parameter<NamedParameters, internal_np::avoid_self_intersections_t>;
   static constexpr bool may_count_intersections =
     has_parameter<NamedParameters, internal_np::count_self_intersections_t>;
+
+  /// Those of the input, and what attempts so far have shown to be needed.
+  Feature_parameters features() const
+  {
+    Feature_parameters result = creases_->constrained(values_->features());
+    return guard_ ? guard_->constrained(std::move(result)) : result;
+  }
+
+  void warn()
+  {
+    if (creases_->number() > 0 && !report_.stopped)
+      report_.warnings.push_back(std::to_string(creases_->number()) +
+                                 " edges of the input are ridges besides, for faces across them stay too far away");
+    if (guard_ && guard_->number_of_kept_faces() > 0)
+      report_.warnings.push_back(std::to_string(guard_->number_of_kept_faces()) +
+                                 " faces of the input stay where it comes too near to itself for the sizes");
+    if (intersections_.after > intersections_.before)
+      report_.warnings.push_back("faces intersect that did not, or in more pairs than before: ask to "
+                                 "`avoid_self_intersections` (`--no-self-intersections`)");
+  }
 
   void read()
   {
@@ -194,11 +210,13 @@ private:
     std::optional<Adapted_surface<Metric, Reconstruction, may_avoid_intersections>> surface;
     const auto attempt = [&] {
       surface.emplace(execution_, reference, background, tolerance_ ? &*tolerance_ : nullptr);
+      surface->creases = &*creases_;
       if constexpr (may_avoid_intersections)
         if (guard_) guard(*surface);
       return adapt(*surface);
     };
     report_ = tolerance_ ? adapt_within(*tolerance_, attempt) : attempt();
+    if (creases_->take_new() && !report_.stopped) return false;
     if constexpr (may_avoid_intersections)
       if (guard_ && !accepts(*surface)) return false;
     write(reference, *surface);
@@ -227,6 +245,7 @@ private:
       const Effect_of_interruption leave_out(execution_.interruption(), Interruption::Effect::leave_out);
       return kernels_(execution_, surface);
     }();
+    result.seconds = seconds_ += result.seconds;
     if (guard_ || intersections_.are_counted) round_to_points<Point>(execution_, surface);
     if (!tolerance_) return result;
     const Effect_of_interruption once(execution_.interruption(), effect_after(result));
@@ -282,12 +301,14 @@ private:
   std::optional<Carried_values<Domain, NamedParameters>> values_;
   Given_jets given_;
   std::optional<Tolerance> tolerance_;
+  std::optional<Late_creases> creases_;
   std::optional<Self_intersection_guard> guard_;
   Surroundings surroundings_;
   Vertex_size_bounds bounds_;
   std::vector<double> deviations_; // that each face of the input asks for
   Self_intersection_counts intersections_;
   Size_limits limits_; // of an attempt before, with finer sizes where faces met
+  double seconds_ = 0; // of all attempts
   Adaptation_report report_;
 };
 

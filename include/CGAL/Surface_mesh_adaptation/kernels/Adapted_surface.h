@@ -10,6 +10,7 @@
 #include <CGAL/Surface_mesh_adaptation/fields/Metric_background.h>
 #include <CGAL/Surface_mesh_adaptation/fields/expected_size.h>
 #include <CGAL/Surface_mesh_adaptation/fields/tightened_metric.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Late_creases.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Self_intersection_guard.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Tolerance.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/alignment.h>
@@ -58,6 +59,7 @@ public:
   Buffer<std::uint8_t> active;  ///< a bit for each kernel that has to look at the vertex
   std::optional<Tolerance_guard<Reference>> tolerance; ///< if there is one
   internal::Self_intersection_guard* intersections = nullptr; ///< what keeps the mesh from them, if anything
+  internal::Late_creases* creases = nullptr; ///< what is told where faces stay too far from the surface, if anything
   bool is_on_facets = false; ///< whether vertices on faces of the input that are smaller than the metric asks for are put
                              ///< on these, not on patches: cheap, and most moves are not the last ones
   std::size_t max_number_of_vertices = largest_number_of_vertices(std::size_t(-1)); ///< beyond which it is not refined

@@ -9,6 +9,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_SELF_INTERSECTION_GUARD_H
 
 #include <CGAL/Surface_mesh_adaptation/distance/gap_bounds.h>
+#include <CGAL/Surface_mesh_adaptation/distance/input_faces_near.h>
 #include <CGAL/Surface_mesh_adaptation/distance/self_intersections.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
@@ -24,7 +25,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -139,7 +139,7 @@ public:
     if (++attempts_ > max_attempts) throw Self_intersection_error(pairs.size());
     std::size_t number_of_new = 0;
     for (const Index f : faces_of(pairs))
-      for (const Index face : faces_below(surface, f)) {
+      for (const Index face : input_faces_near(surface, f)) {
         number_of_new += is_kept_[face] == 0 ? 1 : 0;
         is_kept_[face] = 1;
       }
@@ -205,31 +205,8 @@ private:
   template <class Surface>
   bool is_above_old(const Surface& surface, Index f) const
   {
-    const std::vector<Index> below = faces_below(surface, f);
+    const std::vector<Index> below = input_faces_near(surface, f);
     return std::any_of(below.begin(), below.end(), [&](Index face) { return is_old_[face] != 0; });
-  }
-
-  /// The faces of the input at the corners of the face `f` of `surface`, and those from there that are near its middle.
-  template <class Surface>
-  std::vector<Index> faces_below(const Surface& surface, Index f) const
-  {
-    std::vector<Index> faces;
-    std::unordered_set<Index> found;
-    const auto add = [&](Index face) {
-      if (found.insert(face).second) faces.push_back(face);
-    };
-    const Triangle_points t = corners_from(surface.mesh, surface.points, 3 * f);
-    for (Index h = 3 * f; h < 3 * f + 3; ++h) add(surface.reference().face_at(surface.locations[surface.mesh.source(h)]));
-    const Vector_3 middle = (t[0] + t[1] + t[2]) / 3;
-    const double radius = (std::max)({(t[0] - middle).norm(), (t[1] - middle).norm(), (t[2] - middle).norm()});
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
-        const Index twin = mesh_.twin[h];
-        if (twin != no_index &&
-            squared_distance_to_triangle(middle, corners_from(mesh_, points_, twin)) <= radius * radius)
-          add(Mesh_view::face(twin));
-      }
-    return faces;
   }
 
   /// About how far the face `f` of `surface` is away from the input, at most. `near` is a face of that.
@@ -273,7 +250,7 @@ private:
   {
     double least = infinity;
     std::size_t number_of_coarse = 0;
-    const std::vector<Index> below = faces_below(surface, f);
+    const std::vector<Index> below = input_faces_near(surface, f);
     for (const Index face : below) {
       const double bound = gaps_->bounds[gaps_->tree.place(face)];
       least = (std::min)(least, bound);

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Where the input bends sharply along an edge that is no ridge, since it turns by less or was taken for noise, faces cross
+// the edge, and no size brings them near enough. Such edges become creases once a run has shown it, and all is done again.
+
+#ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_LATE_CREASES_H
+#define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_LATE_CREASES_H
+
+#include <CGAL/Surface_mesh_adaptation/distance/Triangle_tree.h>
+#include <CGAL/Surface_mesh_adaptation/distance/input_faces_near.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/vertex_normals.h>
+
+#include <CGAL/number_type_config.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace CGAL {
+namespace Surface_mesh_adaptation {
+namespace internal {
+
+class Late_creases
+{
+public:
+  /// `mesh` and `points` are the input; both live as long as this. Where no ridges are wanted there are no late ones.
+  Late_creases(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Feature_parameters& features)
+    : mesh_(mesh), points_(points), attempts_left_(features.detect_ridges ? max_attempts : 0)
+    , cosine_(std::cos(share_of_angle * features.ridge_angle * CGAL_PI / 180))
+  {}
+
+  /// Marks edges of the input around the faces of `surface` that are farther from it than `asked`, but none that are
+  /// much shorter than those of the face, or beside triangles that are much thinner. On patches, none where a face is no
+  /// farther away than it would be from something round, of which creases would make facets.
+  /// \par Complexity
+  /// O(n) for the faces of the input around them
+  template <class Surface, class Deviations>
+  void mark(const Surface& surface, const Deviations& deviations, double asked)
+  {
+    if (attempts_left_ == 0) return;
+    is_marked_.resize(mesh_.number_of_halfedges(), false);
+    const std::size_t before = edges_.size();
+    for (Index f = 0; f < Index(surface.mesh.number_of_faces()); ++f) {
+      if (!(deviations[f] > asked)) continue;
+      const double longest = longest_edge(corners_from(surface.mesh, surface.points, 3 * f));
+      const double distance = deviations.least_distance(f);
+      if (!Surface::Reference::is_flat && distance < distance_of_arc * longest) continue;
+      for (const Index face : input_faces_near(surface, f, distance))
+        mark_face(surface.reference().mesh, face, longest / 2);
+    }
+    are_new_ = are_new_ || edges_.size() > before;
+  }
+
+  /// Whether there are new ones since this was asked: then all is to be done again with `constrained()`.
+  bool take_new()
+  {
+    if (are_new_) --attempts_left_;
+    return std::exchange(are_new_, false);
+  }
+
+  std::size_t number() const { return edges_.size(); }
+
+  /// `features`, with all that were marked.
+  Feature_parameters constrained(Feature_parameters features) const
+  {
+    if (edges_.empty()) return features;
+    features.halfedge_constraint.resize(mesh_.number_of_halfedges(), Edge_constraint::none);
+    for (const Index h : edges_)
+      for (const Index side : {h, mesh_.twin[h]})
+        features.halfedge_constraint[side] = Edge_constraint::crease;
+    return features;
+  }
+
+private:
+  static constexpr int max_attempts = 3;
+  static constexpr double distance_of_arc = 0.2; // of its middle from a chord of length 1, if it has 90 degrees
+  static constexpr double share_of_angle = 1.0 / 3; // of that of ridges: below, finer sizes do
+
+  static double longest_edge(const Triangle_points& t)
+  {
+    return (std::max)({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
+  }
+
+  void mark_face(const Mesh_view& with_features, Index f, double least_length)
+  {
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      if (with_features.is_border(h) || with_features.is_shaped(h) || with_features.is_protected(h)) continue;
+      if (is_marked_[h] || !turns(h) || least_extent(h) < least_length) continue;
+      is_marked_[h] = is_marked_[mesh_.twin[h]] = true;
+      edges_.push_back(h);
+    }
+  }
+
+  /// The length of the edge of `h`, or how high a face beside is above it.
+  double least_extent(Index h) const
+  {
+    const double length = (points_[mesh_.target(h)] - points_[mesh_.source(h)]).norm();
+    const double area = (std::min)(face_normal(mesh_, points_, h).norm(), face_normal(mesh_, points_, mesh_.twin[h]).norm());
+    return (std::min)(length, area / length);
+  }
+
+  /// Degenerate faces turn at no edge.
+  bool turns(Index h) const
+  {
+    const Vector_3 n = face_normal(mesh_, points_, h), behind = face_normal(mesh_, points_, mesh_.twin[h]);
+    return n.dot(behind) < cosine_ * n.norm() * behind.norm();
+  }
+
+  const Mesh_view& mesh_;
+  const std::vector<Vector_3>& points_;
+  int attempts_left_;
+  double cosine_; // of the angle from which edges may become creases
+  std::vector<bool> is_marked_; // both halfedges of each edge
+  std::vector<Index> edges_;    // one halfedge each of those marked
+  bool are_new_ = false;
+};
+
+} // namespace internal
+} // namespace Surface_mesh_adaptation
+} // namespace CGAL
+
+#endif // CGAL_SURFACE_MESH_ADAPTATION_KERNELS_LATE_CREASES_H
