@@ -10,9 +10,12 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 
+#include <Eigen/Core>
+
 #include <boost/container/static_vector.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <utility>
@@ -59,72 +62,97 @@ public:
   /// The bound at `p`, if it is below `limit`, or that. Near O(log n) where few sources matter.
   double least(const Vector_3& p, double limit) const
   {
-    return least(p, limit, std::numeric_limits<double>::infinity());
+    return least(p, limit, infinity);
   }
 
 private:
+  static constexpr std::size_t width = 8;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  using Row = Eigen::Array<double, int(width), 1>;
+
+  /// Some boxes side by side, with the least value and slope of the sources inside; those of no source are nowhere.
+  struct Block
+  {
+    std::array<Row, 3> low, high;
+    Row value = Row::Constant(infinity), slope = Row::Constant(infinity);
+
+    Block()
+    {
+      low.fill(Row::Constant(infinity));
+      high.fill(Row::Constant(-infinity));
+    }
+
+    void set(std::size_t i, const Source& s)
+    {
+      for (int k = 0; k < 3; ++k) low[k][i] = high[k][i] = s.point[k];
+      value[i] = s.value;
+      slope[i] = s.slope;
+    }
+
+    /// The box around those of `block`.
+    void set(std::size_t i, const Block& block)
+    {
+      for (int k = 0; k < 3; ++k) {
+        low[k][i] = block.low[k].minCoeff();
+        high[k][i] = block.high[k].maxCoeff();
+      }
+      value[i] = block.value.minCoeff();
+      slope[i] = block.slope.minCoeff();
+    }
+
+    /// What no bound at `p` is below, for each of the boxes. All at once, for the outcome of a single one is hard to predict.
+    Row least(const Vector_3& p) const
+    {
+      Row squared = Row::Zero();
+      for (int k = 0; k < 3; ++k) squared += (low[k] - p[k]).max(p[k] - high[k]).max(0.0).square();
+      return value + slope * squared.sqrt();
+    }
+  };
+
   struct Place
   {
-    std::size_t level, index;
+    std::size_t level, block;
+    double least; ///< of the box around it
   };
+
+  using Stack = boost::container::static_vector<Place, 16 * width>; // far more levels than can be
 
   /// The same by sources with no more than this slope.
   double least(const Vector_3& p, double limit, double max_slope) const
   {
     if (sources_.empty()) return limit;
-    boost::container::static_vector<Place, 64> stack{{levels_.size() - 1, 0}};
+    Stack stack{{levels_.size() - 1, 0, -infinity}};
     while (!stack.empty()) {
       const Place at = stack.back();
       stack.pop_back();
-      if (levels_[at.level][at.index].least(p) >= limit) continue;
-      if (at.level == 0) limit = least_of_leaf(at.index, p, limit, max_slope);
-      else push_children(at, p, stack);
+      if (at.least >= limit) continue;
+      const Block& block = levels_[at.level][at.block];
+      const Row bounds = block.least(p);
+      if (at.level > 0) push_below(at, bounds, limit, stack);
+      else limit = (std::min)(limit, (block.slope <= max_slope).select(bounds, infinity).minCoeff());
     }
     return limit;
   }
 
-  /// Some sources: the box around them, their least value and least slope.
-  struct Group
+  /// Those below `limit`, the lowest one last, from where the search goes on.
+  static void push_below(const Place& at, const Row& bounds, double limit, Stack& stack)
   {
-    Vector_3 low, high;
-    double value, slope;
-
-    Group() = default;
-    explicit Group(const Source& s) : low(s.point), high(s.point), value(s.value), slope(s.slope) {}
-
-    void add(const Group& other)
-    {
-      low = low.cwiseMin(other.low);
-      high = high.cwiseMax(other.high);
-      value = (std::min)(value, other.value);
-      slope = (std::min)(slope, other.slope);
-    }
-
-    double least(const Vector_3& p) const
-    {
-      return value + slope * (low - p).cwiseMax(p - high).cwiseMax(0.0).norm();
-    }
-  };
-
-  /// The lower one last, from where the search goes on.
-  template <class Stack>
-  void push_children(const Place& at, const Vector_3& p, Stack& stack) const
-  {
-    const std::vector<Group>& below = levels_[at.level - 1];
-    const std::size_t i = 2 * at.index, j = (std::min)(i + 1, below.size() - 1);
-    const bool is_first_lower = below[i].least(p) < below[j].least(p);
-    if (i != j) stack.push_back({at.level - 1, is_first_lower ? j : i});
-    stack.push_back({at.level - 1, is_first_lower ? i : j});
+    std::size_t lowest = 0;
+    bounds.minCoeff(&lowest);
+    const auto push = [&](std::size_t i) {
+      if (bounds[i] < limit) stack.push_back({at.level - 1, width * at.block + i, bounds[i]});
+    };
+    for (std::size_t i = 0; i < width; ++i)
+      if (i != lowest) push(i);
+    push(lowest);
   }
-
-  static constexpr std::size_t leaf_size = 4;
 
   template <class Execution>
   void build(const Execution& execution)
   {
     levels_.clear();
-    add_level(execution, sources_, leaf_size);
-    while (levels_.back().size() > 1) add_level(execution, levels_.back(), 2);
+    add_level(execution, sources_);
+    while (levels_.back().size() > 1) add_level(execution, levels_.back());
   }
 
   /// Drops sources that lie above the bound of others, with all that they bound.
@@ -139,27 +167,19 @@ private:
     sources_.swap(kept);
   }
 
-  /// Groups `n` consecutive ones of what is below each.
+  /// Consecutive ones of what is `below` become a block.
   template <class Execution, class Below>
-  void add_level(const Execution& execution, const std::vector<Below>& below, std::size_t n)
+  void add_level(const Execution& execution, const std::vector<Below>& below)
   {
-    std::vector<Group> level((below.size() + n - 1) / n);
+    std::vector<Block> level((below.size() + width - 1) / width);
     for_each_index(execution, level.size(), [&](std::size_t i) {
-      level[i] = Group(below[n * i]);
-      for (std::size_t j = n * i + 1; j < (std::min)(n * (i + 1), below.size()); ++j) level[i].add(Group(below[j]));
+      for (std::size_t j = width * i; j < (std::min)(width * (i + 1), below.size()); ++j) level[i].set(j - width * i, below[j]);
     });
     levels_.push_back(std::move(level));
   }
 
-  double least_of_leaf(std::size_t leaf, const Vector_3& p, double limit, double max_slope) const
-  {
-    for (std::size_t i = leaf_size * leaf; i < (std::min)(leaf_size * (leaf + 1), sources_.size()); ++i)
-      if (sources_[i].slope <= max_slope) limit = (std::min)(limit, sources_[i].at((sources_[i].point - p).norm()));
-    return limit;
-  }
-
   std::vector<Source> sources_;
-  std::vector<std::vector<Group>> levels_; // the last one has a single group
+  std::vector<std::vector<Block>> levels_; // the last one has a single block
 };
 
 } // namespace Surface_mesh_adaptation

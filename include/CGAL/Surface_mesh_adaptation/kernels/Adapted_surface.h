@@ -215,13 +215,18 @@ public:
   std::vector<std::uint8_t> tighten_metric(const Execution& execution, const std::vector<double>& factors,
                                            const Limits_of_tightening& allowed)
   {
-    std::vector<Graded_bounds::Source> sources = limits_.upper.sources();
+    std::vector<Graded_bounds::Source> sources;
     for (const Index v : pack(execution, factors.size(), [&](std::size_t i) { return factors[i] < 1; })) {
       const Metric unlimited = background_->at(*reference_, locations[v], surface_point(v));
       sources.push_back(tightening(unlimited, limits_, points[v], factors[v], allowed));
     }
+    const Graded_bounds tighter(execution, sources);
+    sources.insert(sources.end(), limits_.upper.sources().begin(), limits_.upper.sources().end());
     limits_.upper = Graded_bounds(execution, std::move(sources));
-    return update_metrics(execution);
+    return update_metrics(execution, [&](Index v) {
+      const double now = limited_value(metrics[v]);
+      return tighter.least(points[v], now) < now;
+    });
   }
 
   /// Gives back the memory; nothing but the destructor may be called afterwards.
@@ -271,12 +276,20 @@ private:
 
   Surface_point surface_point(Index v) const { return {points[v], normals[v]}; }
 
-  /// Returns a 1 for each vertex of which the metric is another one now. \pre no vertex is removed
   template <class Execution>
-  std::vector<std::uint8_t> update_metrics(const Execution& execution)
+  void update_metrics(const Execution& execution)
+  {
+    update_metrics(execution, [](Index) { return true; });
+  }
+
+  /// Those of the vertices for which `may_change(v)`. Returns a 1 for each of which the metric is another one now.
+  /// \pre no vertex is removed
+  template <class Execution, class May_change>
+  std::vector<std::uint8_t> update_metrics(const Execution& execution, const May_change& may_change)
   {
     std::vector<std::uint8_t> is_changed(metrics.size());
     for_each_index(execution, metrics.size(), [&](std::size_t v) {
+      if (!may_change(Index(v))) return;
       const Metric now = metric(locations[v], surface_point(Index(v)));
       is_changed[v] = now == metrics[v] ? 0 : 1;
       metrics[v] = now;
