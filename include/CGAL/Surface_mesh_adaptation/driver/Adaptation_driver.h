@@ -67,9 +67,9 @@ public:
     refinement_.compact();
     if (aims.deviation > 0 && rounds > 0) meet_deviation(aims.deviation);
     if constexpr (Surface::avoids_intersections)
-      if (surface_.intersections != nullptr && rounds > 0) part_faces();
+      if (surface_.intersections != nullptr && rounds > 0 && !is_in_vain()) part_faces();
     if constexpr (!std::is_same_v<IsFitted, std::false_type>)
-      if (is_fitted) {
+      if (is_fitted && !is_in_vain()) {
         fit(shape_weight);
         Face_deviations<Surface> deviations(execution_, surface_, aims.deviation);
         if (aims.deviation > 0) measure(deviations);
@@ -161,6 +161,7 @@ private:
     double of_best = infinity, least = infinity, least_excess = infinity;
     int idle = 0;
     for (int i = 0; measure(deviations) > asked && i < max_corrections_of_deviation; ++i) {
+      if (i == 0 && has_creases_at_first(deviations, asked)) return;
       const double excess = deviations.excess(execution_, asked);
       const bool is_as_near = report_.deviation < largest_of_equals * least;
       const bool is_best = report_.deviation < least || (is_as_near && excess < least_excess);
@@ -178,12 +179,27 @@ private:
     mark_creases(deviations, asked);
   }
 
-  /// Where faces stay too far away, creases may be missing, unless sizes may not be as small as the distance.
+  /// Where faces stay too far away, creases may be missing.
   void mark_creases(Face_deviations<Surface>& deviations, double asked)
   {
-    if (surface_.creases == nullptr || !(report_.deviation > asked) || surface_.background().aims().hmin > asked) return;
-    if (measure(deviations) > asked) surface_.creases->mark(surface_, deviations, asked);
+    if (!may_have_creases(asked) || !(report_.deviation > asked)) return;
+    if (!is_restored_ || measure(deviations) > asked) surface_.creases->mark(surface_, deviations, asked);
   }
+
+  bool has_creases_at_first(const Face_deviations<Surface>& deviations, double asked)
+  {
+    if (may_have_creases(asked)) surface_.creases->mark_at_first(surface_, deviations, asked);
+    return is_in_vain();
+  }
+
+  /// Not where sizes may not be as small as the distance.
+  bool may_have_creases(double asked) const
+  {
+    return surface_.creases != nullptr && !(surface_.background().aims().hmin > asked);
+  }
+
+  /// Whether all will be done again with more creases.
+  bool is_in_vain() const { return surface_.creases != nullptr && surface_.creases->are_new(); }
 
   /// One correction of the faces that leave the surface. Returns whether there was anything left to do.
   bool correct(const Face_deviations<Surface>& deviations, double most_vertices)

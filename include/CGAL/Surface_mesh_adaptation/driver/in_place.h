@@ -83,16 +83,16 @@ void round_to_points(const Any_execution& execution, Surface& surface)
 }
 
 /// Calls `adapt()`, which returns a report with a certified distance, with ever stricter operations until that distance
-/// is within the tolerance.
+/// is within the tolerance, or until it is known that all `is_in_vain()`.
 /// \throws Tolerance_error
-template <class Adapt>
-Adaptation_report adapt_within(Tolerance& tolerance, const Adapt& adapt)
+template <class Adapt, class Is_in_vain>
+Adaptation_report adapt_within(Tolerance& tolerance, const Adapt& adapt, const Is_in_vain& is_in_vain)
 {
   constexpr int max_attempts = 4;
   constexpr double safety = 0.9;
   for (int attempt = 1;; ++attempt) {
     const Adaptation_report report = adapt();
-    if (report.certified_distance <= tolerance.distance) return report;
+    if (report.certified_distance <= tolerance.distance || is_in_vain()) return report;
     if (attempt == max_attempts || report.stopped) throw Tolerance_error(report.certified_distance, tolerance.distance);
     tolerance.of_operations *= safety * tolerance.distance / report.certified_distance;
   }
@@ -153,7 +153,7 @@ private:
   {
     if (creases_->number() > 0 && !report_.stopped)
       report_.warnings.push_back(std::to_string(creases_->number()) +
-                                 " edges of the input are ridges besides, for faces across them stay too far away");
+                                 " edges of the input are ridges besides, for faces across them do not come near enough");
     if (guard_ && guard_->number_of_kept_faces() > 0)
       report_.warnings.push_back(std::to_string(guard_->number_of_kept_faces()) +
                                  " faces of the input stay where it comes too near to itself for the sizes");
@@ -215,7 +215,7 @@ private:
         if (guard_) guard(*surface);
       return adapt(*surface);
     };
-    report_ = tolerance_ ? adapt_within(*tolerance_, attempt) : attempt();
+    report_ = tolerance_ ? adapt_within(*tolerance_, attempt, [&] { return creases_->are_new(); }) : attempt();
     if (creases_->take_new() && !report_.stopped) return false;
     if constexpr (may_avoid_intersections)
       if (guard_ && !accepts(*surface)) return false;

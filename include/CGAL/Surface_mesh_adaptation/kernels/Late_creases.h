@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Where the input bends sharply along an edge that is no ridge, since it turns by less or was taken for noise, faces cross
-// the edge, and no size brings them near enough. Such edges become creases once a run has shown it, and all is done again.
+// the edge, and no size brings them near enough, or very small ones only. Such edges become creases once a run has shown it,
+// and all is done again.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_LATE_CREASES_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_LATE_CREASES_H
@@ -30,37 +31,39 @@ public:
   /// `mesh` and `points` are the input; both live as long as this. Where no ridges are wanted there are no late ones.
   Late_creases(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Feature_parameters& features)
     : mesh_(mesh), points_(points), attempts_left_(features.detect_ridges ? max_attempts : 0)
-    , cosine_(std::cos(share_of_angle * features.ridge_angle * CGAL_PI / 180))
+    , cosine_(std::cos(share_of_angle * features.ridge_angle * CGAL_PI / 180)), is_first_(features.detect_ridges)
   {}
 
-  /// Marks edges of the input around the faces of `surface` that are farther from it than `asked`, but none that are
-  /// much shorter than those of the face, or beside triangles that are much thinner. On patches, none where a face is no
-  /// farther away than it would be from something round, of which creases would make facets.
+  /// Before sizes are corrected for the first time, where the faces of the input are the surface: marks edges around faces
+  /// of `surface` that are not much nearer to it than `asked`, if they are as long as those of the face. Finer sizes there
+  /// would take several times the vertices.
+  /// \par Complexity
+  /// O(n) for the faces of the input around them
+  template <class Surface, class Deviations>
+  void mark_at_first(const Surface& surface, const Deviations& deviations, double asked)
+  {
+    if (std::exchange(is_first_, false)) mark_long(surface, deviations, asked);
+  }
+
+  /// Where corrections of the sizes were in vain: marks edges around faces that are farther away than `asked`, too, but none
+  /// that are much shorter than those of the face. On patches, none where a face is no farther away than it would be from
+  /// something round, of which creases would make facets. A few times only.
   /// \par Complexity
   /// O(n) for the faces of the input around them
   template <class Surface, class Deviations>
   void mark(const Surface& surface, const Deviations& deviations, double asked)
   {
     if (attempts_left_ == 0) return;
-    is_marked_.resize(mesh_.number_of_halfedges(), false);
-    const std::size_t before = edges_.size();
-    for (Index f = 0; f < Index(surface.mesh.number_of_faces()); ++f) {
-      if (!(deviations[f] > asked)) continue;
-      const double longest = longest_edge(corners_from(surface.mesh, surface.points, 3 * f));
-      const double distance = deviations.least_distance(f);
-      if (!Surface::Reference::is_flat && distance < distance_of_arc * longest) continue;
-      for (const Index face : input_faces_near(surface, f, distance))
-        mark_face(surface.reference().mesh, face, longest / 2);
-    }
-    are_new_ = are_new_ || edges_.size() > before;
+    mark_around(surface, deviations, asked, share_of_length);
+    mark_long(surface, deviations, asked);
+    if (are_new_) --attempts_left_;
   }
 
-  /// Whether there are new ones since this was asked: then all is to be done again with `constrained()`.
-  bool take_new()
-  {
-    if (are_new_) --attempts_left_;
-    return std::exchange(are_new_, false);
-  }
+  /// Whether all is to be done again with `constrained()`.
+  bool are_new() const { return are_new_; }
+
+  /// The same; from then on there are no new ones.
+  bool take_new() { return std::exchange(are_new_, false); }
 
   std::size_t number() const { return edges_.size(); }
 
@@ -79,10 +82,36 @@ private:
   static constexpr int max_attempts = 3;
   static constexpr double distance_of_arc = 0.2; // of its middle from a chord of length 1, if it has 90 degrees
   static constexpr double share_of_angle = 1.0 / 3; // of that of ridges: below, finer sizes do
+  static constexpr double share_of_asked = 0.7;     // of the distance
+  static constexpr double share_of_length = 0.5;    // of the longest edge of a face, for those that sizes cannot mend
 
   static double longest_edge(const Triangle_points& t)
   {
     return (std::max)({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
+  }
+
+  template <class Surface, class Deviations>
+  void mark_long(const Surface& surface, const Deviations& deviations, double asked)
+  {
+    if (Surface::Reference::is_flat) mark_around(surface, deviations, share_of_asked * asked, 1);
+  }
+
+  /// Marks edges around faces that are farther away than `distance`, of at least `share` of their longest edge, and beside no
+  /// triangles that are thinner.
+  template <class Surface, class Deviations>
+  void mark_around(const Surface& surface, const Deviations& deviations, double distance, double share)
+  {
+    is_marked_.resize(mesh_.number_of_halfedges(), false);
+    const std::size_t before = edges_.size();
+    for (Index f = 0; f < Index(surface.mesh.number_of_faces()); ++f) {
+      if (!(deviations[f] > distance)) continue;
+      const double longest = longest_edge(corners_from(surface.mesh, surface.points, 3 * f));
+      const double of_face = deviations.least_distance(f);
+      if (!Surface::Reference::is_flat && of_face < distance_of_arc * longest) continue;
+      for (const Index face : input_faces_near(surface, f, of_face))
+        mark_face(surface.reference().mesh, face, share * longest);
+    }
+    are_new_ = are_new_ || edges_.size() > before;
   }
 
   void mark_face(const Mesh_view& with_features, Index f, double least_length)
@@ -117,6 +146,7 @@ private:
   std::vector<bool> is_marked_; // both halfedges of each edge
   std::vector<Index> edges_;    // one halfedge each of those marked
   bool are_new_ = false;
+  bool is_first_; // time that faces are looked at
 };
 
 } // namespace internal
