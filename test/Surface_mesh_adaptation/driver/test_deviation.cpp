@@ -3,6 +3,7 @@
 // The tolerance of sizes from the curvature: bounds of sizes around places, distances of faces, and what comes of them.
 
 #include "analytic_surfaces.h"
+#include "brute_force_intersections.h"
 #include "distances.h"
 #include "near_sheets.h"
 #include "policies.h"
@@ -13,6 +14,8 @@
 #include <CGAL/Surface_mesh_adaptation/distance/Face_deviations.h>
 #include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/fields/Graded_bounds.h>
+
+#include <CGAL/Polygon_mesh_processing/measure.h>
 
 #include <gtest/gtest.h>
 
@@ -57,7 +60,7 @@ double least_of_all(const std::vector<Bounds::Source>& sources, const Vector_3& 
 
 TEST(Graded_bounds, are_the_least_of_all_sources)
 {
-  for (const std::size_t n : {0, 1, 4, 5, 9, 300}) {
+  for (const std::size_t n : {0, 1, 7, 8, 9, 65, 300, 5000}) {
     const std::vector<Bounds::Source> sources = random_sources(n);
     const Bounds bounds(sequential, sources);
     Random random(6);
@@ -77,8 +80,6 @@ TEST(Graded_bounds, forget_sources_that_others_bound)
   EXPECT_TRUE(Bounds().empty());
 }
 
-// Distances of faces
-
 /// A mesh on the triangles of `soup`, as it is before anything is done to it.
 struct On_triangles
 {
@@ -91,6 +92,28 @@ struct On_triangles
   SMA::Metric_background<SMA::Isotropic_metric> background;
   Surface surface;
 };
+
+/// Only vertices near what is new are looked at.
+TEST(Graded_bounds, that_are_tightened_change_the_metrics_of_all_vertices_that_they_concern)
+{
+  On_triangles sphere(shapes::sphere(3, 0.3));
+  Surface& surface = sphere.surface;
+  Random random(9);
+  for (int step = 0; step < 4; ++step) {
+    std::vector<double> factors(surface.points.size(), 1);
+    for (int i = 0; i < 12; ++i) factors[random.below(factors.size())] = random.real(0.4, 0.9);
+    const auto before = surface.metrics;
+    const auto is_changed = surface.tighten_metric(sequential, factors, {0.01, 0, 1.3});
+    const auto after = surface.metrics;
+    surface.limit_sizes(sequential, surface.limits()); // of all vertices
+    for (SMA::Index v = 0; v < surface.points.size(); ++v) {
+      EXPECT_EQ(after[v].inverse_size, surface.metrics[v].inverse_size) << v;
+      EXPECT_EQ(is_changed[v] != 0, after[v].inverse_size != before[v].inverse_size) << v;
+    }
+  }
+}
+
+// Distances of faces
 
 TEST(Face_deviations, see_faces_above_the_surface_and_vertices_of_the_input_below)
 {
@@ -421,6 +444,84 @@ TEST(Tolerance_of_curvature, holds_where_edges_bend_that_are_no_ridges)
     with_creases += has_late_creases(on_patches) + has_late_creases(on_triangles);
   }
   EXPECT_GE(with_creases, 5); // else this shows nothing
+}
+
+/// Where the faces of the input are the surface, faces need not become small beside edges of the input: they follow these.
+TEST(Tolerance_of_curvature, takes_few_vertices_on_large_triangles)
+{
+  Random random(23);
+  const auto flat = params::surface_reconstruction(SMA::Flat_reconstruction());
+  for (int i = 0; i < 8; ++i) {
+    Soup soup = shapes::sphere(1 + i % 2, 0.2);
+    for (Vector_3& p : soup.points) p *= random.real(0.93, 1.07);
+    SMA::Curvature_metric_field field(random.real(0.0005, 0.001));
+    field.anisotropic = i % 4 == 3;
+    const Mesh input = shapes::mesh<Mesh>(soup);
+    Mesh mesh = input, before = input;
+    const double asked = field.relative_tolerance * diagonal(input);
+    const SMA::Adaptation_report report = SMA::adapt_surface_mesh(sequential, mesh, field, flat);
+    SMA::adapt_surface_mesh(sequential, before, without_tolerance(field), flat);
+    EXPECT_LE(report.deviation, asked) << i;
+    EXPECT_LE(distance_between(input, mesh, asked), 1.02 * asked) << i;
+    EXPECT_GT(report.final.in_range, 0.95) << i;
+    EXPECT_GT(report.final.min_quality, 0.2) << i;
+    EXPECT_LE(double(mesh.number_of_vertices()), 2 * double(before.number_of_vertices())) << i;
+  }
+}
+
+/// Labels, edges that are protected, a tolerance, and no self-intersections, all at once.
+TEST(Tolerance_of_curvature, has_late_creases_together_with_everything_else)
+{
+  Random random(61);
+  for (int i = 0; i < 4; ++i) {
+    const Mesh input = sharp_sphere(random, i);
+    const SMA::Curvature_metric_field field(0.003);
+    const double asked = field.relative_tolerance * diagonal(input);
+    Mesh mesh = input;
+    auto label = mesh.add_property_map<Mesh::Face_index, int>("f:label", 0).first;
+    auto is_protected = mesh.add_property_map<Mesh::Edge_index, bool>("e:protected", false).first;
+    for (const auto f : mesh.faces()) label[f] = mesh.point(source(halfedge(f, mesh), mesh)).x() > 0 ? 1 : 0;
+    const std::size_t number_of_protected = 5;
+    for (std::size_t k = 0; k < number_of_protected; ++k) is_protected[Mesh::Edge_index(Mesh::size_type(3 * k))] = true;
+    const SMA::Adaptation_report report =
+      SMA::adapt_surface_mesh(sequential, mesh, field, params::surface_reconstruction(SMA::Flat_reconstruction())
+                                                         .avoid_self_intersections(true)
+                                                         .tolerance(2 * asked)
+                                                         .face_patch_map(label)
+                                                         .edge_is_constrained_map(is_protected)
+                                                         .protect_constraints(true));
+    EXPECT_TRUE(has_late_creases(report)) << i;
+    EXPECT_LE(report.certified_distance, 2 * asked) << i;
+    EXPECT_EQ(brute_force_intersections::number_of_pairs(shapes::soup(mesh)), 0u) << i;
+    std::size_t left = 0;
+    for (const auto e : mesh.edges()) left += is_protected[e] ? 1 : 0;
+    EXPECT_EQ(left, number_of_protected) << i;
+    double area = 0, area_of_input = 0;
+    for (const auto f : mesh.faces()) area += label[f] * CGAL::Polygon_mesh_processing::face_area(f, mesh);
+    for (const auto f : input.faces())
+      if (input.point(source(halfedge(f, input), input)).x() > 0)
+        area_of_input += CGAL::Polygon_mesh_processing::face_area(f, input);
+    EXPECT_NEAR(area, area_of_input, 0.05 * area_of_input) << i;
+  }
+}
+
+/// Nor does what is around a range of faces change.
+TEST(Tolerance_of_curvature, has_late_creases_in_a_range_of_faces)
+{
+  Random random(62);
+  Mesh mesh = sharp_sphere(random, 2);
+  const Mesh input = mesh;
+  std::vector<Mesh::Face_index> range, others;
+  for (const auto f : mesh.faces())
+    (mesh.point(source(halfedge(f, mesh), mesh)).z() > 0 ? range : others).push_back(f);
+  const SMA::Adaptation_report report = SMA::adapt_surface_mesh(
+    sequential, range, mesh, SMA::Curvature_metric_field(0.002), params::surface_reconstruction(SMA::Flat_reconstruction()));
+  EXPECT_TRUE(has_late_creases(report));
+  for (const auto f : others) {
+    const auto of_face = CGAL::vertices_around_face(mesh.halfedge(f), mesh), before = CGAL::vertices_around_face(input.halfedge(f), input);
+    EXPECT_TRUE(std::equal(of_face.begin(), of_face.end(), before.begin(), before.end(),
+                           [&](auto v, auto w) { return mesh.point(v) == input.point(w); }));
+  }
 }
 
 /// Not where nobody wants ridges, nor where sizes have to be larger than the distance, nor on what is round.
