@@ -167,6 +167,51 @@ TEST(Labels, of_a_checkerboard_stay_connected_and_as_large)
   }));
 }
 
+/// Two planes that meet at 30 degrees where x is 0.4, with labels on both sides; edges there are in `is_ridge`.
+struct Roof
+{
+  Roof() : mesh(labelled_plate(10, 8)), is_ridge(mesh.add_property_map<Edge, bool>("e:ridge", false).first)
+  {
+    for (const Vertex v : mesh.vertices()) mesh.point(v) = Point(mesh.point(v).x(), mesh.point(v).y(), height(v));
+    for (const Face f : mesh.faces()) label_of(mesh)[f] = centroid(mesh, f)[0] < 0.4 ? 0 : 1;
+    for (const Edge e : mesh.edges()) is_ridge[e] = is_on_ridge(mesh.vertex(e, 0)) && is_on_ridge(mesh.vertex(e, 1));
+  }
+
+  bool is_on_ridge(Vertex v) const { return std::abs(mesh.point(v).x() - 0.4) < 1e-9; }
+  double height(Vertex v) const { return -std::tan(CGAL_PI / 12) * std::abs(mesh.point(v).x() - 0.4); }
+
+  /// How far the vertices are off the planes after an adaptation.
+  template <class NamedParameters>
+  double largest_distance(const NamedParameters& np)
+  {
+    SMA::adapt_surface_mesh<CGAL::Sequential_tag>(mesh, SMA::Uniform_metric_field(0.06), np);
+    double largest = 0;
+    for (const Vertex v : mesh.vertices()) largest = (std::max)(largest, std::abs(mesh.point(v).z() - height(v)));
+    return largest;
+  }
+
+  Mesh mesh;
+  Mesh::Property_map<Edge, bool> is_ridge;
+};
+
+/// Below the feature angle edges are sharp if they are asked to be, whatever else is asked of them.
+TEST(Labels, and_protected_edges_leave_the_creases_that_are_asked_for)
+{
+  const auto distance = [](const auto& parameters_of) {
+    Roof roof;
+    return roof.largest_distance(parameters_of(roof));
+  };
+  const auto labels = [](Roof& r) { return params::face_patch_map(label_of(r.mesh)); };
+  const auto creases = [](Roof& r) { return params::edge_is_constrained_map(r.is_ridge); };
+  EXPECT_GT(distance(labels), 1e-3) << "the surface is smooth there";
+  EXPECT_LT(distance(creases), 1e-12);
+  EXPECT_LT(distance([&](Roof& r) { return labels(r).edge_is_constrained_map(r.is_ridge); }), 1e-12);
+  EXPECT_LT(distance([&](Roof& r) { return creases(r).edge_is_protected_map(r.is_ridge); }), 1e-12);
+  EXPECT_LT(distance([&](Roof& r) { return labels(r).edge_is_constrained_map(r.is_ridge).edge_is_protected_map(r.is_ridge); }),
+            1e-12);
+  EXPECT_GT(distance([&](Roof& r) { return labels(r).edge_is_protected_map(r.is_ridge); }), 1e-3);
+}
+
 TEST(Labels, leave_no_crease_on_a_smooth_surface)
 {
   Mesh plain = shapes::mesh<Mesh>(shapes::sphere(3)), labelled = plain;

@@ -22,29 +22,6 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 namespace internal {
 
-/// Constraints of edges, of which the stronger one counts.
-class Edge_constraints
-{
-public:
-  explicit Edge_constraints(std::vector<Edge_constraint>& constraints) : constraints_(constraints) {}
-
-  /// Gives `constraint` to the edges with a halfedge for which `predicate(h)`. A map of a user may know an edge from one
-  /// side only: that of a cell complex, kept in a `std::set`.
-  template <class Predicate>
-  void add(const Mesh_view& mesh, Edge_constraint constraint, const Predicate& predicate)
-  {
-    constraints_.resize(mesh.number_of_halfedges(), Edge_constraint::none);
-    for (Index h = 0; h < mesh.number_of_halfedges(); ++h)
-      if (constraints_[h] < constraint && predicate(h)) {
-        constraints_[h] = constraint;
-        if (!mesh.is_border(h)) constraints_[mesh.twin[h]] = constraint;
-      }
-  }
-
-private:
-  std::vector<Edge_constraint>& constraints_;
-};
-
 /// How fast sizes come back to those of the metric with the distance from protected edges; at most 1: they do not follow
 /// these.
 /// \throws Invalid_parameter_error
@@ -68,18 +45,17 @@ Feature_parameters feature_parameters(const FaceGraph& graph, const Imported_mes
   p.smooth_borders = choose(np, internal_np::smooth_borders, p.smooth_borders);
   if (!(p.ridge_angle > 0 && p.ridge_angle <= 180))
     throw Invalid_parameter_error("the feature angle must lie between 0 and 180 degrees");
-  Edge_constraints constraints(p.halfedge_constraint);
   const auto is_in = [&](const auto& map) {
     return [&graph, &imported, map](Index h) -> bool { return get(map, edge(imported.halfedges[h], graph)); };
   };
   if constexpr (has_parameter<NamedParameters, CGAL::internal_np::edge_is_constrained_t>) {
     const bool are_protected = choose(np, CGAL::internal_np::protect_constraints, false);
-    constraints.add(imported.mesh, are_protected ? Edge_constraint::protect : Edge_constraint::crease,
-                    is_in(CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained)));
+    p.constrain(imported.mesh, are_protected ? Edge_constraint::protect : Edge_constraint::crease,
+                is_in(CGAL::parameters::get_parameter(np, CGAL::internal_np::edge_is_constrained)));
   }
   if constexpr (has_parameter<NamedParameters, internal_np::edge_is_protected_map_t>)
-    constraints.add(imported.mesh, Edge_constraint::protect,
-                    is_in(CGAL::parameters::get_parameter(np, internal_np::edge_is_protected_map)));
+    p.constrain(imported.mesh, Edge_constraint::protect,
+                is_in(CGAL::parameters::get_parameter(np, internal_np::edge_is_protected_map)));
   if constexpr (has_parameter<NamedParameters, CGAL::internal_np::vertex_is_constrained_t>) {
     const auto map = CGAL::parameters::get_parameter(np, CGAL::internal_np::vertex_is_constrained);
     for (const auto v : imported.vertices) p.vertex_is_constrained.push_back(get(map, v) ? 1 : 0);
@@ -109,7 +85,7 @@ bool is_asked_to_be_protected(const Surface& surface, const Feature_parameters& 
   if (!surface.mesh.is_protected(h) || features.halfedge_constraint.empty()) return false;
   const Index v = surface.origin[surface.mesh.source(h)], w = surface.origin[surface.mesh.target(h)];
   const Index before = v != no_index && w != no_index ? surface.reference().mesh.any_halfedge(v, w) : no_index;
-  return before != no_index && features.halfedge_constraint[before] == Edge_constraint::protect;
+  return before != no_index && features.halfedge_constraint[before] >= Edge_constraint::protect;
 }
 
 /// Marks the constrained elements of the result in the user's maps, where these can be written.

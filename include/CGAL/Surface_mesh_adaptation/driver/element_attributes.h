@@ -122,12 +122,11 @@ public:
   {
     values_.for_each([&](const auto&, const auto& values) {
       const auto differ = [&](Index h, Index g) { return !(values[h].value == values[g].value); };
-      Edge_constraints(features.halfedge_constraint)
-        .add(mesh, Edge_constraint::border, [&](Index h) {
-          if (mesh.is_border(h)) return false;
-          const Index t = mesh.twin[h];
-          return differ(h, Mesh_view::previous(t)) || differ(t, Mesh_view::previous(h));
-        });
+      features.constrain(mesh, Edge_constraint::border, [&](Index h) {
+        if (mesh.is_border(h)) return false;
+        const Index t = mesh.twin[h];
+        return differ(h, Mesh_view::previous(t)) || differ(t, Mesh_view::previous(h));
+      });
     });
   }
 

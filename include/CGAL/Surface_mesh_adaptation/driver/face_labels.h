@@ -115,13 +115,12 @@ private:
 
   void constrain(const Mesh_view& mesh, Feature_parameters& features) const
   {
-    Edge_constraints constraints(features.halfedge_constraint);
     const auto label = [&](Index h) { return mesh.label[Mesh_view::face(h)]; };
-    constraints.add(mesh, Edge_constraint::border, [&](Index h) {
+    features.constrain(mesh, Edge_constraint::border, [&](Index h) {
       return !mesh.is_border(h) && label(h) != label(mesh.twin[h]);
     });
     if constexpr (Domain::is_part)
-      constraints.add(mesh, Edge_constraint::protect, [&](Index h) {
+      features.constrain(mesh, Edge_constraint::protect, [&](Index h) {
         return is_inside_[label(h)] == 0 || (!mesh.is_border(h) && is_inside_[label(mesh.twin[h])] == 0);
       });
   }

@@ -65,16 +65,12 @@ public:
   /// The same; from then on there are no new ones.
   bool take_new() { return std::exchange(are_new_, false); }
 
-  std::size_t number() const { return edges_.size(); }
+  std::size_t number() const { return number_; } ///< of those marked
 
   /// `features`, with all that were marked.
   Feature_parameters constrained(Feature_parameters features) const
   {
-    if (edges_.empty()) return features;
-    features.halfedge_constraint.resize(mesh_.number_of_halfedges(), Edge_constraint::none);
-    for (const Index h : edges_)
-      for (const Index side : {h, mesh_.twin[h]})
-        features.halfedge_constraint[side] = Edge_constraint::crease;
+    if (number_ > 0) features.constrain(mesh_, Edge_constraint::crease, [&](Index h) -> bool { return is_marked_[h]; });
     return features;
   }
 
@@ -102,7 +98,7 @@ private:
   void mark_around(const Surface& surface, const Deviations& deviations, double distance, double share)
   {
     is_marked_.resize(mesh_.number_of_halfedges(), false);
-    const std::size_t before = edges_.size();
+    const std::size_t before = number_;
     for (Index f = 0; f < Index(surface.mesh.number_of_faces()); ++f) {
       if (!(deviations[f] > distance)) continue;
       const double longest = longest_edge(corners_from(surface.mesh, surface.points, 3 * f));
@@ -111,7 +107,7 @@ private:
       for (const Index face : input_faces_near(surface, f, of_face))
         mark_face(surface.reference().mesh, face, share * longest);
     }
-    are_new_ = are_new_ || edges_.size() > before;
+    are_new_ = are_new_ || number_ > before;
   }
 
   void mark_face(const Mesh_view& with_features, Index f, double least_length)
@@ -120,7 +116,7 @@ private:
       if (with_features.is_border(h) || with_features.is_shaped(h) || with_features.is_protected(h)) continue;
       if (is_marked_[h] || !turns(h) || least_extent(h) < least_length) continue;
       is_marked_[h] = is_marked_[mesh_.twin[h]] = true;
-      edges_.push_back(h);
+      ++number_;
     }
   }
 
@@ -144,7 +140,7 @@ private:
   int attempts_left_;
   double cosine_; // of the angle from which edges may become creases
   std::vector<bool> is_marked_; // both halfedges of each edge
-  std::vector<Index> edges_;    // one halfedge each of those marked
+  std::size_t number_ = 0;      // of edges that are
   bool are_new_ = false;
   bool is_first_; // time that faces are looked at
 };

@@ -154,12 +154,7 @@ public:
   Feature_parameters constrained(Feature_parameters features) const
   {
     if (attempts_ == 0) return features;
-    features.halfedge_constraint.resize(mesh_.number_of_halfedges(), Edge_constraint::none);
-    for (Index h = 0; h < mesh_.number_of_halfedges(); ++h) {
-      const Index t = mesh_.twin[h];
-      if (is_kept_[Mesh_view::face(h)] != 0 || (t != no_index && is_kept_[Mesh_view::face(t)] != 0))
-        features.halfedge_constraint[h] = Edge_constraint::protect;
-    }
+    features.constrain(mesh_, Edge_constraint::protect, [&](Index h) { return is_kept_[Mesh_view::face(h)] != 0; });
     return features;
   }
 

@@ -211,7 +211,8 @@ private:
 
   Mark first_mark(Index h) const
   {
-    if (mesh_.is_border(h) || constraint(h) == Edge_constraint::crease) return kept;
+    const Edge_constraint asked = constraint(h);
+    if (mesh_.is_border(h) || asked == Edge_constraint::crease || asked == Edge_constraint::protected_crease) return kept;
     return parameters_.detect_ridges && is_ridge(h) ? ridge : none;
   }
 
@@ -230,7 +231,7 @@ private:
       const Index h = Index(i);
       const bool is_crease = is_marked(h);
       if (constraint(h) == Edge_constraint::border) is_feature_[h] = is_crease ? kept : kept_smooth;
-      if (constraint(h) == Edge_constraint::protect) is_feature_[h] = is_crease ? protected_crease : protected_smooth;
+      if (constraint(h) >= Edge_constraint::protect) is_feature_[h] = is_crease ? protected_crease : protected_smooth;
     });
   }
 

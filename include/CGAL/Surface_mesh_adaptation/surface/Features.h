@@ -61,10 +61,19 @@ struct Curve_node
 /// What a user asks of an edge.
 enum class Edge_constraint : std::uint8_t {
   none,
-  crease,      ///< a feature as ridges are
   border,      ///< a feature, but a ridge only if it is one: two labels or charts meet there
-  protect      ///< the same, and it stays in one piece between vertices that stay where they are
+  crease,      ///< a feature as ridges are
+  protect,     ///< as a border, and it stays in one piece between vertices that stay where they are
+  protected_crease ///< both of the last two
 };
+
+/// What is asked of an edge of which both are asked.
+inline Edge_constraint combined(Edge_constraint a, Edge_constraint b)
+{
+  const Edge_constraint weaker = (std::min)(a, b), stronger = (std::max)(a, b);
+  const bool are_both = weaker == Edge_constraint::crease && stronger == Edge_constraint::protect;
+  return are_both ? Edge_constraint::protected_crease : stronger;
+}
 
 /// What the user asks for and constrains; entries are per element of the mesh view, empty for "none".
 struct Feature_parameters
@@ -75,6 +84,20 @@ struct Feature_parameters
   bool smooth_borders = false; ///< whether planes keep their outlines where something curved joins them smoothly
   std::vector<Edge_constraint> halfedge_constraint; ///< the same on both sides
   std::vector<std::uint8_t> vertex_is_constrained;  ///< vertices that are corners
+
+  /// Asks `constraint`, besides what is asked already, of the edges with a halfedge for which `predicate(h)`. A map of a user
+  /// may know an edge from one side only: that of a cell complex, kept in a `std::set`.
+  template <class Predicate>
+  void constrain(const Mesh_view& mesh, Edge_constraint constraint, const Predicate& predicate)
+  {
+    halfedge_constraint.resize(mesh.number_of_halfedges(), Edge_constraint::none);
+    for (Index h = 0; h < mesh.number_of_halfedges(); ++h) {
+      const Edge_constraint both = combined(halfedge_constraint[h], constraint);
+      if (both == halfedge_constraint[h] || !predicate(h)) continue;
+      halfedge_constraint[h] = both;
+      if (!mesh.is_border(h)) halfedge_constraint[mesh.twin[h]] = both;
+    }
+  }
 };
 
 /// All features of a mesh.
