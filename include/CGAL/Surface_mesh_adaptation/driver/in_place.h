@@ -83,7 +83,7 @@ void round_to_points(const Any_execution& execution, Surface& surface)
 }
 
 /// Calls `adapt()`, which returns a report with a certified distance, with ever stricter operations until that distance
-/// is within the tolerance, or until it is known that all `is_in_vain()`.
+/// is within the tolerance, or until it is known that all `is_in_vain(report)`.
 /// \throws Tolerance_error
 template <class Adapt, class Is_in_vain>
 Adaptation_report adapt_within(Tolerance& tolerance, const Adapt& adapt, const Is_in_vain& is_in_vain)
@@ -92,7 +92,7 @@ Adaptation_report adapt_within(Tolerance& tolerance, const Adapt& adapt, const I
   constexpr double safety = 0.9;
   for (int attempt = 1;; ++attempt) {
     const Adaptation_report report = adapt();
-    if (report.certified_distance <= tolerance.distance || is_in_vain()) return report;
+    if (report.certified_distance <= tolerance.distance || is_in_vain(report)) return report;
     if (attempt == max_attempts || report.stopped) throw Tolerance_error(report.certified_distance, tolerance.distance);
     tolerance.of_operations *= safety * tolerance.distance / report.certified_distance;
   }
@@ -215,14 +215,20 @@ private:
         if (guard_) guard(*surface);
       return adapt(*surface);
     };
-    report_ = tolerance_ ? adapt_within(*tolerance_, attempt, [&] { return creases_->are_new(); }) : attempt();
-    if (creases_->take_new() && !report_.stopped) return false;
+    report_ = tolerance_ ? adapt_within(*tolerance_, attempt, [&](const auto& report) { return is_in_vain(report); }) : attempt();
+    if (is_in_vain(report_)) {
+      creases_->take_new();
+      return false;
+    }
     if constexpr (may_avoid_intersections)
       if (guard_ && !accepts(*surface)) return false;
     write(reference, *surface);
     surface->release(execution_);
     return true;
   }
+
+  /// Whether all is to be done again with more creases.
+  bool is_in_vain(const Adaptation_report& report) const { return creases_->are_new() && !report.stopped; }
 
   template <class Surface>
   void guard(Surface& surface)
@@ -247,7 +253,7 @@ private:
     }();
     result.seconds = seconds_ += result.seconds;
     if (guard_ || intersections_.are_counted) round_to_points<Point>(execution_, surface);
-    if (!tolerance_) return result;
+    if (!tolerance_ || is_in_vain(result)) return result;
     const Effect_of_interruption once(execution_.interruption(), effect_after(result));
     result.tolerance = tolerance_->distance;
     result.certified_distance = certified_distance(execution_, *tolerance_, surface);

@@ -34,8 +34,6 @@ public:
     Vector_3 point;
     double value;
     double slope;
-
-    double at(double distance) const { return value + slope * distance; }
   };
 
   Graded_bounds() = default; ///< no bound

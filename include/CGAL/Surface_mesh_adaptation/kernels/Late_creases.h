@@ -59,11 +59,10 @@ public:
     if (are_new_) --attempts_left_;
   }
 
-  /// Whether all is to be done again with `constrained()`.
+  /// Whether there are some since `take_new()`: then all is to be done again with `constrained()`.
   bool are_new() const { return are_new_; }
 
-  /// The same; from then on there are no new ones.
-  bool take_new() { return std::exchange(are_new_, false); }
+  void take_new() { are_new_ = false; }
 
   std::size_t number() const { return number_; } ///< of those marked
 
