@@ -7,6 +7,10 @@
 #include "policies.h"
 #include "tessellations.h"
 
+#include <CGAL/convex_hull_3.h>
+
+#include <Eigen/Geometry>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,6 +19,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -1770,6 +1775,77 @@ TEST(Cad_tessellations, are_adapted_alike_by_all_policies)
   for_each_policy([&](const auto& execution, const std::string& name) {
     EXPECT_TRUE(checks::is_identical(expected, adapted(input.soup, part.size, execution))) << name;
   });
+}
+
+/// The convex hull of a few discs with rounded rims, as of links of robots. Coordinates are of single precision.
+Soup random_hull(Random& random)
+{
+  std::vector<Surface_mesh::Point> points;
+  const auto disc = [&](std::size_t n) {
+    const Vector_3 center(random.real(0, 2), random.real(0, 1.2), random.real(0, 1.5)), axis = random.vector().normalized();
+    const Vector_3 x = axis.unitOrthogonal(), y = axis.cross(x);
+    const double r = random.real(0.2, 0.5), rim = random.real(0.02, 0.15);
+    for (int row = 0; row < 3; ++row)
+      for (std::size_t i = 0; i < n; ++i) {
+        const double a = 2 * pi * (double(i) + random.real(-0.3, 0.3)) / double(n), b = row * pi / 4;
+        const Vector_3 p = center + (r + rim * std::cos(b)) * (std::cos(a) * x + std::sin(a) * y) + rim * std::sin(b) * axis;
+        points.emplace_back(double(float(p[0])), double(float(p[1])), double(float(p[2])));
+      }
+  };
+  const std::size_t discs = 3 + random.below(4);
+  for (std::size_t i = 0; i < discs; ++i) disc(10 + random.below(20));
+  Surface_mesh hull;
+  CGAL::convex_hull_3(points.begin(), points.end(), hull);
+  return shapes::soup(hull);
+}
+
+/// How far the vertices of a mesh are from a convex polyhedron: from the planes of its faces, which is less than from
+/// these where a vertex is outside of an edge.
+double largest_distance(const Soup& polyhedron, const Soup& mesh)
+{
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<double> outside(mesh.points.size(), -infinity);
+  for (const shapes::Triangle& t : polyhedron.triangles) {
+    const Vector_3 n = twice_area(polyhedron.points, {t[0], t[1], t[2]}).normalized();
+    for (std::size_t v = 0; v < outside.size(); ++v)
+      outside[v] = std::max(outside[v], n.dot(mesh.points[v] - polyhedron.points[t[0]]));
+  }
+  double largest = 0;
+  for (const double x : outside) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+double diagonal(const Soup& soup)
+{
+  Eigen::AlignedBox3d box;
+  for (const Vector_3& p : soup.points) box.extend(p);
+  return box.diagonal().norm();
+}
+
+/// Few of their faces are coplanar, and all are bad: fits to these vertices say nothing.
+TEST(Cad_tessellations, of_convex_hulls_stay_near_them)
+{
+  Random random(27);
+  const int n = 10;
+  double sum = 0;
+  for (int i = 0; i < n; ++i) {
+    SCOPED_TRACE(std::to_string(i));
+    const Soup hull = random_hull(random);
+    EXPECT_TRUE(SMA::find_facets(sequential, shapes::view(hull), hull.points).are_chords());
+    const double distance = largest_distance(hull, adapted(hull, 0.05)) / diagonal(hull);
+    EXPECT_LE(distance, 0.02);
+    sum += distance;
+  }
+  EXPECT_LE(sum, 0.01 * n);
+}
+
+/// Meshes of solvers are stretched evenly: fits to these know the surface better than their faces do.
+TEST(Cad_tessellations, are_no_meshes_that_are_stretched_evenly)
+{
+  for (const auto& [nu, nv] : {std::pair(160, 12), std::pair(300, 30), std::pair(24, 120), std::pair(40, 300)}) {
+    const Soup torus = shapes::torus(std::size_t(nu), std::size_t(nv), 0.15);
+    EXPECT_TRUE(SMA::find_facets(sequential, shapes::view(torus), torus.points).empty()) << nu << ", " << nv;
+  }
 }
 
 } // namespace

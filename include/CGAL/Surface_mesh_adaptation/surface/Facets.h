@@ -34,8 +34,8 @@ struct Facet
   bool is_plane = false;  ///< whether it is a plane of the shape, not a chord of something curved
 };
 
-/// The facets of a mesh, if it is the tessellation of a CAD system or the like: else, and where a mesher has made good
-/// triangles of it, there are none.
+/// The facets of a mesh, if it is the tessellation of a CAD system or the like, or a polyhedron that a convex hull or a
+/// decimation has left of one: else, and where a mesher has made good triangles of it, there are none.
 struct Facets
 {
   double rounding = 0;          ///< how far the rounding of its coordinates may have moved a point
@@ -44,6 +44,8 @@ struct Facets
 
   bool are_meshed = false;      ///< whether a mesher has been over them: many vertices lie inside of facets, curved ones
                                 ///< among these
+
+  bool are_decimated = false;   ///< whether they are those of a polyhedron of few and uneven vertices: fits to these are none
 
   double sag = std::numeric_limits<double>::infinity();  ///< the largest of regular chords, if there are such
 
@@ -155,12 +157,15 @@ public:
   Facets run(const Execution& execution)
   {
     facets_.rounding = coordinate_rounding(execution, points_);
-    if (!is_tessellation(execution)) return std::move(facets_);
+    if (!is_tessellation(execution)) {
+      facets_.are_decimated = is_decimated(execution);
+      if (!facets_.are_decimated) return std::move(facets_);
+    }
     facets_.of_face.assign(mesh_.number_of_faces(), no_index);
     for (const Index f : faces_by_area(execution))
       if (facets_.of_face[f] == no_index) grow(f);
     if (find_inner_vertices() > largest_share_inside * double(mesh_.number_of_vertices())) {
-      if (mean_quality(execution) > least_quality_of_meshers) return {facets_.rounding, {}, {}, false};
+      if (mean_quality(execution) > least_quality_of_meshers) return {facets_.rounding, {}, {}};
       facets_.are_meshed = true;
     }
     return std::move(facets_);
@@ -199,6 +204,27 @@ private:
       return true;
     const double largest_quality = share >= least_share ? least_quality_of_meshers : largest_quality_of_needles;
     return mean_quality(execution) <= largest_quality && share_on_creases(execution) >= least_share_on_creases;
+  }
+
+  /// The same of convex hulls and decimated meshes, by number and by area, and the share of edges between faces of which one
+  /// is so many times as large as the other. Scans and meshers have better faces; stretched ones have even neighbours.
+  static constexpr double largest_quality_of_hulls = 0.55, largest_quality_of_hulls_by_area = 0.5;
+  static constexpr double least_ratio_of_uneven = 4, least_share_of_uneven = 0.1;
+
+  /// Whether faces are bad and uneven, though few have a coplanar neighbour.
+  template <class Execution>
+  bool is_decimated(const Execution& execution) const
+  {
+    const bool are_bad = mean_quality(execution) <= largest_quality_of_hulls ||
+                         mean_quality(execution, [&](std::size_t f) { return area(f); }) <= largest_quality_of_hulls_by_area;
+    if (!are_bad) return false;
+    const std::size_t n = count_if(execution, mesh_.number_of_halfedges(), [&](std::size_t h) { return is_uneven(Index(h)); });
+    return double(n) >= least_share_of_uneven * double(mesh_.number_of_halfedges());
+  }
+
+  bool is_uneven(Index h) const
+  {
+    return !mesh_.is_border(h) && !are_alike(area(Mesh_view::face(h)), area(Mesh_view::face(mesh_.twin[h])), least_ratio_of_uneven);
   }
 
   /// Of the vertices, those on edges where the surface ends or turns sharply.

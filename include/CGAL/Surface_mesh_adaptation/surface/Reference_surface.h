@@ -111,7 +111,7 @@ public:
       p.has_shape_operator[i] = jet.has_shape_operator;
     }
     if (is_plane(f)) flatten(p, features.facets.at(f).normal);
-    if (!is_fitted(p)) p.largest_bulge = largest_bulge();
+    if (!is_fitted(p) || features.facets.are_decimated) p.largest_bulge = largest_bulge();
     for (std::size_t i = 0; i < 3; ++i) {
       const bool bulges_too_far = this->bulges_too_far(Index(h + i), p, i);
       if (bulges_too_far) p.largest_bulge = 0; // for these normals say nothing of the inside either
@@ -333,12 +333,12 @@ private:
   }
 
   /// Whether the normals at the ends of edge `i`, the halfedge `h`, say more of a bulge than chords of a tessellation have,
-  /// and no fit does.
+  /// and no fit does, or none counts.
   bool bulges_too_far(Index h, const Patch& p, std::size_t i) const
   {
     if (!features.facets.are_chords() || mesh.is_shaped(h)) return false;
     const double bulge = this->bulge(p, i);
-    return bulge > largest_bulge() && !agrees_with_fit(p, i, bulge);
+    return bulge > largest_bulge() && (features.facets.are_decimated || !agrees_with_fit(p, i, bulge));
   }
 
   /// Whether the fits at both ends of edge `i` are known, or the curvature of one of them is that of an arc with this bulge.
