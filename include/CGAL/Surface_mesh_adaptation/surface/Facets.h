@@ -206,18 +206,16 @@ private:
     return mean_quality(execution) <= largest_quality && share_on_creases(execution) >= least_share_on_creases;
   }
 
-  /// The same of convex hulls and decimated meshes, by number and by area, and the share of edges between faces of which one
-  /// is so many times as large as the other. Scans and meshers have better faces; stretched ones have even neighbours.
-  static constexpr double largest_quality_of_hulls = 0.55, largest_quality_of_hulls_by_area = 0.5;
-  static constexpr double least_ratio_of_uneven = 4, least_share_of_uneven = 0.1;
+  /// The same of the mean by area of convex hulls and decimated meshes, and the share of edges between faces of which one is so
+  /// many times as large as the other. Scans, meshers, and freeform surfaces of CAD systems have better large faces; meshes of
+  /// solvers that are stretched have even neighbours.
+  static constexpr double largest_quality_of_hulls = 0.5, least_ratio_of_uneven = 4, least_share_of_uneven = 0.05;
 
   /// Whether faces are bad and uneven, though few have a coplanar neighbour.
   template <class Execution>
   bool is_decimated(const Execution& execution) const
   {
-    const bool are_bad = mean_quality(execution) <= largest_quality_of_hulls ||
-                         mean_quality(execution, [&](std::size_t f) { return area(f); }) <= largest_quality_of_hulls_by_area;
-    if (!are_bad) return false;
+    if (!(mean_quality(execution, [&](std::size_t f) { return area(f); }) <= largest_quality_of_hulls)) return false;
     const std::size_t n = count_if(execution, mesh_.number_of_halfedges(), [&](std::size_t h) { return is_uneven(Index(h)); });
     return double(n) >= least_share_of_uneven * double(mesh_.number_of_halfedges());
   }
