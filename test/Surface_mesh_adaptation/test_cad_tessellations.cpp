@@ -1068,6 +1068,12 @@ TEST(Cad_tessellations, of_a_box_stay_flat_with_fans_of_slivers)
   expect_errors(part, {0, 0});
 }
 
+SMA::Facets facets_of(const Soup& soup)
+{
+  SMA::Mesh_view mesh = shapes::view(soup);
+  return SMA::detect_features(sequential, mesh, soup.points, SMA::Feature_parameters()).facets;
+}
+
 std::size_t number_of_ridges(const Soup& soup)
 {
   SMA::Mesh_view mesh = shapes::view(soup);
@@ -1749,9 +1755,7 @@ TEST(Cad_tessellations, are_not_scans_with_some_flat_places)
 {
   Random random(4);
   for (int i = 0; i < 8; ++i) {
-    const Soup soup = ellipsoid_with_flat_stars(random);
-    SMA::Mesh_view mesh = shapes::view(soup);
-    EXPECT_TRUE(SMA::detect_features(sequential, mesh, soup.points, SMA::Feature_parameters()).facets.empty()) << i;
+    EXPECT_TRUE(facets_of(ellipsoid_with_flat_stars(random)).empty()) << i;
   }
 }
 
@@ -1831,7 +1835,7 @@ TEST(Cad_tessellations, of_convex_hulls_stay_near_them)
   for (int i = 0; i < n; ++i) {
     SCOPED_TRACE(std::to_string(i));
     const Soup hull = random_hull(random);
-    EXPECT_TRUE(SMA::find_facets(sequential, shapes::view(hull), hull.points).are_chords());
+    EXPECT_TRUE(facets_of(hull).are_chords());
     const double distance = largest_distance(hull, adapted(hull, 0.05)) / diagonal(hull);
     EXPECT_LE(distance, 0.025);
     sum += distance;
@@ -1839,12 +1843,33 @@ TEST(Cad_tessellations, of_convex_hulls_stay_near_them)
   EXPECT_LE(sum, 0.01 * n);
 }
 
+TEST(Cad_tessellations, of_convex_hulls_are_adapted_alike_by_all_policies)
+{
+  Random random(28);
+  const Soup hull = random_hull(random), expected = adapted(hull, 0.1);
+  for_each_policy([&](const auto& execution, const std::string& name) {
+    EXPECT_TRUE(checks::is_identical(expected, adapted(hull, 0.1, execution))) << name;
+  });
+}
+
 /// Meshes of solvers are stretched evenly: fits to these know the surface better than their faces do.
 TEST(Cad_tessellations, are_no_meshes_that_are_stretched_evenly)
 {
   for (const auto& [nu, nv] : {std::pair(160, 12), std::pair(300, 30), std::pair(24, 120), std::pair(40, 300)}) {
     const Soup torus = shapes::torus(std::size_t(nu), std::size_t(nv), 0.15);
-    EXPECT_TRUE(SMA::find_facets(sequential, shapes::view(torus), torus.points).empty()) << nu << ", " << nv;
+    EXPECT_TRUE(facets_of(torus).empty()) << nu << ", " << nv;
+  }
+}
+
+/// Fits to scans with much noise say nothing either.
+TEST(Cad_tessellations, are_no_scans_with_noise)
+{
+  Random random(29);
+  for (const double noise : {0.1, 0.2, 0.3, 0.5}) {
+    constexpr double edge = 0.1;
+    Soup torus = shapes::torus(64, 24, 0.3);
+    for (Vector_3& p : torus.points) p += noise * edge * random.vector();
+    EXPECT_TRUE(facets_of(torus).empty()) << noise;
   }
 }
 

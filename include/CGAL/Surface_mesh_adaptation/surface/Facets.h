@@ -144,6 +144,32 @@ double coordinate_rounding(const Execution& execution, const std::vector<Vector_
   return moved_by(4 * std::numeric_limits<double>::epsilon()); // after a rotation or the like
 }
 
+inline double area_of_face(const Mesh_view& mesh, const std::vector<Vector_3>& points, std::size_t f)
+{
+  return face_normal(mesh, points, Index(3 * f)).norm() / 2;
+}
+
+/// Of the triangles, with these weights: 1 if they are equilateral.
+template <class Execution, class Weight>
+double weighted_mean_quality(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
+                             const Weight& weight)
+{
+  const auto sum = [&](const auto& value) {
+    return reduce(execution, mesh.number_of_faces(), 0.0, value, std::plus<double>());
+  };
+  return sum([&](std::size_t f) {
+    const Isotropic_metric m{1};
+    const Vector_3& a = points[mesh.corner[3 * f]];
+    return weight(f) * face_quality(m, m, m, points[mesh.corner[3 * f + 1]] - a, points[mesh.corner[3 * f + 2]] - a);
+  }) / sum(weight);
+}
+
+template <class Execution>
+double mean_quality_by_area(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points)
+{
+  return weighted_mean_quality(execution, mesh, points, [&](std::size_t f) { return area_of_face(mesh, points, f); });
+}
+
 /// Finds facets: triangles are taken in the order of their areas, each with all that can be reached from it in its
 /// plane. Larger triangles know their planes better; slivers follow them, whatever their own normals say.
 ///
@@ -157,10 +183,23 @@ public:
   Facets run(const Execution& execution)
   {
     facets_.rounding = coordinate_rounding(execution, points_);
-    if (!is_tessellation(execution)) {
-      facets_.are_decimated = is_decimated(execution);
-      if (!facets_.are_decimated) return std::move(facets_);
-    }
+    if (!is_tessellation(execution)) return std::move(facets_);
+    return grown(execution);
+  }
+
+  /// Those of a polyhedron, whatever its faces look like.
+  template <class Execution>
+  Facets run_on_polyhedron(const Execution& execution)
+  {
+    facets_.rounding = coordinate_rounding(execution, points_);
+    facets_.are_decimated = true;
+    return grown(execution);
+  }
+
+private:
+  template <class Execution>
+  Facets grown(const Execution& execution)
+  {
     facets_.of_face.assign(mesh_.number_of_faces(), no_index);
     for (const Index f : faces_by_area(execution))
       if (facets_.of_face[f] == no_index) grow(f);
@@ -171,7 +210,6 @@ public:
     return std::move(facets_);
   }
 
-private:
   // Of faces with a coplanar neighbour: scans and the like have far fewer, crossing pipes, all needles, some or none.
   static constexpr double least_share = 0.25, usual_share = 0.4, least_share_of_area = 0.5;
 
@@ -200,29 +238,10 @@ private:
     const double share = sums[0] / sums[2];
     if (share >= usual_share || sums[1] >= least_share_of_area * sums[3]) return true;
     if (sums[1] >= least_share_beside_walls * sums[3] &&
-        mean_quality(execution, [&](std::size_t f) { return area(f); }) <= largest_quality_of_walls)
+        mean_quality_by_area(execution, mesh_, points_) <= largest_quality_of_walls)
       return true;
     const double largest_quality = share >= least_share ? least_quality_of_meshers : largest_quality_of_needles;
     return mean_quality(execution) <= largest_quality && share_on_creases(execution) >= least_share_on_creases;
-  }
-
-  /// The same of the mean by area of convex hulls and decimated meshes, and the share of edges between faces of which one is so
-  /// many times as large as the other. Scans, meshers, and freeform surfaces of CAD systems have better large faces; meshes of
-  /// solvers that are stretched have even neighbours.
-  static constexpr double largest_quality_of_hulls = 0.5, least_ratio_of_uneven = 4, least_share_of_uneven = 0.05;
-
-  /// Whether faces are bad and uneven, though few have a coplanar neighbour.
-  template <class Execution>
-  bool is_decimated(const Execution& execution) const
-  {
-    if (!(mean_quality(execution, [&](std::size_t f) { return area(f); }) <= largest_quality_of_hulls)) return false;
-    const std::size_t n = count_if(execution, mesh_.number_of_halfedges(), [&](std::size_t h) { return is_uneven(Index(h)); });
-    return double(n) >= least_share_of_uneven * double(mesh_.number_of_halfedges());
-  }
-
-  bool is_uneven(Index h) const
-  {
-    return !mesh_.is_border(h) && !are_alike(area(Mesh_view::face(h)), area(Mesh_view::face(mesh_.twin[h])), least_ratio_of_uneven);
   }
 
   /// Of the vertices, those on edges where the surface ends or turns sharply.
@@ -242,27 +261,12 @@ private:
                                                face_normal(mesh_, points_, mesh_.twin[h])) > least_turn_of_creases;
   }
 
-  double area(std::size_t f) const { return face_normal(mesh_, points_, Index(3 * f)).norm() / 2; }
+  double area(std::size_t f) const { return area_of_face(mesh_, points_, f); }
 
   template <class Execution>
   double mean_quality(const Execution& execution) const
   {
-    return mean_quality(execution, [](std::size_t) { return 1.0; });
-  }
-
-  /// Of the triangles, with these weights: 1 if they are equilateral.
-  template <class Execution, class Weight>
-  double mean_quality(const Execution& execution, const Weight& weight) const
-  {
-    const auto sum = [&](const auto& value) {
-      return reduce(execution, mesh_.number_of_faces(), 0.0, value, std::plus<double>());
-    };
-    return sum([&](std::size_t f) {
-      const Isotropic_metric m{1};
-      const Vector_3& a = points_[mesh_.corner[3 * f]];
-      return weight(f) *
-             face_quality(m, m, m, points_[mesh_.corner[3 * f + 1]] - a, points_[mesh_.corner[3 * f + 2]] - a);
-    }) / sum(weight);
+    return weighted_mean_quality(execution, mesh_, points_, [](std::size_t) { return 1.0; });
   }
 
   /// A plane that is known no better than a triangle says.
@@ -394,6 +398,13 @@ template <class Execution>
 Facets find_facets(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points)
 {
   return internal::Facet_search(mesh, points).run(execution);
+}
+
+/// The same of a polyhedron (`polyhedra.h`), whatever its faces look like.
+template <class Execution>
+Facets find_facets_of_polyhedron(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points)
+{
+  return internal::Facet_search(mesh, points).run_on_polyhedron(execution);
 }
 
 } // namespace Surface_mesh_adaptation

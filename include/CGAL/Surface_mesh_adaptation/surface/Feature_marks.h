@@ -74,8 +74,8 @@ public:
 
   template <class Execution>
   Feature_marks(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points,
-                const Feature_parameters& parameters)
-    : mesh_(mesh), points_(points), parameters_(parameters), facets_(find_facets(execution, mesh, points))
+                const Feature_parameters& parameters, Facets facets)
+    : mesh_(mesh), points_(points), parameters_(parameters), facets_(std::move(facets))
     , cosine_of_ridge_(cosine_of_ridge(0))
     , cosine_below_(cosine_of_ridge(facets_.are_chords() ? -loss_to_chords : -rounding_of_angles))
     , cosine_above_(cosine_of_ridge(rounding_of_angles))

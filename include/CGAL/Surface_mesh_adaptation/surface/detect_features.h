@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/surface/Feature_chaining.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Feature_marks.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/polyhedra.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -45,6 +46,17 @@ void raise_sag(const Execution& execution, const std::vector<Vector_3>& points, 
   features.facets.sag = (std::max)(features.facets.sag, more * bulge / largest_bulge_of_facets);
 }
 
+template <class Execution>
+Features features_between(const Execution& execution, Mesh_view& mesh, const std::vector<Vector_3>& points,
+                          const Feature_parameters& parameters, Facets facets)
+{
+  Feature_marks marks(execution, mesh, points, parameters, std::move(facets));
+  facets = marks.take_facets();
+  Features features = Feature_chaining(mesh, points, parameters, marks, std::move(facets)).run(execution);
+  if (features.facets.are_chords()) raise_sag(execution, points, features);
+  return features;
+}
+
 } // namespace internal
 
 /// \addtogroup PkgSurfaceMeshAdaptationGeometry
@@ -57,10 +69,10 @@ template <class Execution>
 Features detect_features(const Execution& execution, Mesh_view& mesh, const std::vector<Vector_3>& points,
                          const Feature_parameters& parameters)
 {
-  internal::Feature_marks marks(execution, mesh, points, parameters);
-  Facets facets = marks.take_facets();
-  Features features = internal::Feature_chaining(mesh, points, parameters, marks, std::move(facets)).run(execution);
-  if (features.facets.are_chords()) internal::raise_sag(execution, points, features);
+  using internal::features_between;
+  Features features = features_between(execution, mesh, points, parameters, find_facets(execution, mesh, points));
+  if (features.facets.empty() && internal::is_polyhedron(execution, mesh, points))
+    features = features_between(execution, mesh, points, parameters, find_facets_of_polyhedron(execution, mesh, points));
   return features;
 }
 
