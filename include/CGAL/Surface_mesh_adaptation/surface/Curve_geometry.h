@@ -71,7 +71,8 @@ private:
     const std::array<Vector_3, 2> straight{e.normalized(), e.normalized()};
     const Index a = mesh_.any_halfedge(c.vertices[i], c.vertices[i + 1]), b = mesh_.twin[a];
     const bool is_side = b == no_index && strokes.are_sides(); // of an outline
-    if (is_side || !strokes.is_on_arc(i) || (is_beside_plane(a) && is_beside_plane(b))) return straight;
+    const bool is_of_plane = is_beside_plane(a) && is_beside_plane(b);
+    if (facets_.are_decimated || is_side || !strokes.is_on_arc(i) || is_of_plane) return straight;
     const Vector_3 ta = tangent_in_planes(a, b, c.tangents[i]), tb = tangent_in_planes(a, b, c.tangents[i + 1]);
     const Vector_3 off = bulge(feature_handles(e, ta, tb));
     if (leaves_facet(a, off) || (b != no_index ? leaves_facet(b, off) : leaves_sideways(a, off))) return straight;

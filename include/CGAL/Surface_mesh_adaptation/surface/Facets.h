@@ -45,7 +45,8 @@ struct Facets
   bool are_meshed = false;      ///< whether a mesher has been over them: many vertices lie inside of facets, curved ones
                                 ///< among these
 
-  bool are_decimated = false;   ///< whether they are those of a polyhedron of few and uneven vertices: fits to these are none
+  bool are_decimated = false;   ///< whether they are those of a polyhedron of few and uneven vertices, which say of no surface
+                                ///< nor arc between them
 
   double sag = std::numeric_limits<double>::infinity();  ///< the largest of regular chords, if there are such
 
