@@ -10,12 +10,12 @@
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Reference_surface.h>
+#include <CGAL/Surface_mesh_adaptation/surface/surface_bulge.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -150,7 +150,8 @@ private:
                     std::vector<Entry>& entries) const
   {
     const auto end = [&](double at, Index v) { return Place{at, points_[v], tree.place(keys.face(keys_[v]))}; };
-    Ring<Part> parts{{end(0, input_.source(h)), end(1, input_.target(h)), is_flat ? 0 : infinity}};
+    const double length = (points_[input_.target(h)] - points_[input_.source(h)]).norm();
+    Ring<Part> parts{{end(0, input_.source(h)), end(1, input_.target(h)), is_flat ? 0 : largest_bulge_of_patches * length}};
     double largest = (std::max)(distance(tree, parts[0].from), distance(tree, parts[0].to));
     while (!parts.empty()) {
       const Part part = parts.back();
@@ -189,7 +190,6 @@ private:
            distance(tree, part.from) + distance(tree, part.to) + (part.to.point - part.from.point).norm() <= 2 * bound;
   }
 
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr double precision = 0.05;           // of distances along edges
   static constexpr double smallest_part = 1.0 / 1024; // of an edge, for what is enough may be lost in rounding
   static constexpr bool is_flat = Surface::Reference::is_flat;

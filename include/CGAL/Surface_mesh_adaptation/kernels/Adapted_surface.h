@@ -220,8 +220,9 @@ public:
       const Metric unlimited = background_->at(*reference_, locations[v], surface_point(v));
       sources.push_back(tightening(unlimited, limits_, points[v], factors[v], allowed));
     }
-    const Graded_bounds tighter(execution, sources);
-    sources.insert(sources.end(), limits_.upper.sources().begin(), limits_.upper.sources().end());
+    const Graded_bounds tighter(execution, std::move(sources));
+    sources = limits_.upper.sources();
+    sources.insert(sources.end(), tighter.sources().begin(), tighter.sources().end());
     limits_.upper = Graded_bounds(execution, std::move(sources));
     return update_metrics(execution, [&](Index v) {
       const double now = limited_value(metrics[v]);

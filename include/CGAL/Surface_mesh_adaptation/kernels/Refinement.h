@@ -4,7 +4,8 @@
 //
 // A sweep marks edges, evaluates their midpoints on the surface, and cuts every face by the pattern of its marks, all
 // at once and without a conflict graph: a new vertex is written by the face that owns its edge, a new face by its
-// parent. A face of which a child would be inverted, or no smaller than itself, takes marks back, its longest edge last.
+// parent. A face of which a child would be inverted, or no smaller than itself, takes marks back, its longest edge last;
+// the midpoints of the others stay as they are.
 // The sweep also closes the holes that simplification left.
 //
 // Invariants: simplicial 2-manifold, features, boundary cycles. Work: O(n) a sweep; span: O(log n).
@@ -57,7 +58,7 @@ public:
 
   ~Refinement()
   {
-    release(execution_, points_, normals_, metrics_, locations_, origin_, active_, spare_.corner, spare_.twin,
+    release(execution_, points_, normals_, metrics_, locations_, origin_, active_, middles_, spare_.corner, spare_.twin,
             spare_.curve, spare_.outgoing, spare_.label);
   }
 
@@ -68,26 +69,22 @@ public:
     counts.candidates += mesh_.number_of_halfedges() / 2;
     mark();
     is_waiting_ = is_curve_marked() && unmark_needles();
-    for (;;) {
-      const std::size_t marked = count_marked();
-      if (is_waiting_ && marked == 0) { // the curves cannot be split
-        is_waiting_ = false;
-        mark();
-        continue;
-      }
-      if (!is_waiting_ && marked <= negligible) return 0;
-      const Restructuring plan(execution_, mesh_, codes_);
-      if ((is_at_limit_ = is_beyond_limit(plan))) return 0;
-      if (expected_vertices_ == 0) expected_vertices_ = expected_number_of_vertices();
-      place_vertices(plan);
-      if (is_stopped(execution_)) return 0; // some were left out
-      if (take_back_marks_of_bad_faces(plan)) continue;
-      choose_diagonals(plan);
-      commit(plan);
-      ++counts.sweeps;
-      counts.applied += marked;
-      return marked;
+    std::size_t marked = settle_marks(negligible);
+    if (is_waiting_ && marked == 0) { // the curves cannot be split
+      is_waiting_ = false;
+      mark();
+      marked = settle_marks(negligible);
     }
+    if (marked == 0) return 0;
+    const Restructuring plan(execution_, mesh_, codes_);
+    if ((is_at_limit_ = is_beyond_limit(plan))) return 0;
+    if (expected_vertices_ == 0) expected_vertices_ = expected_number_of_vertices();
+    choose_diagonals();
+    place_vertices(plan);
+    commit(plan);
+    ++counts.sweeps;
+    counts.applied += marked;
+    return marked;
   }
 
   /// Whether the last sweep left all as it was, since the mesh would have had far more vertices than the metric asks for, or
@@ -259,6 +256,64 @@ private:
     }, [](std::size_t a, std::size_t b) { return a + b; });
   }
 
+  /// Places the middles of the marked edges, and takes marks back until no face would be cut badly. Returns the number of
+  /// those left, or 0 where that is negligible.
+  std::size_t settle_marks(std::size_t negligible)
+  {
+    const std::size_t least = is_waiting_ ? 0 : negligible;
+    if (count_marked() <= least) return 0;
+    place_middles();
+    while (!is_stopped(execution_) && take_back_marks_of_bad_faces()) {}
+    const std::size_t marked = is_stopped(execution_) ? 0 : count_marked(); // some middles were left out
+    return marked > least ? marked : 0;
+  }
+
+  /// Those of the marked edges, with room for all edges of their faces: where they are does not change when marks are
+  /// taken back.
+  void place_middles()
+  {
+    const Index n = exclusive_scan(execution_, mesh_.number_of_faces(), first_middle_, [&](std::size_t f) {
+      return codes_[f] != 0 ? owned_edges(3 * Index(f), 3 * Index(f) + 3) : 0;
+    });
+    resize_and_forget(middles_, n);
+    for_each_face([&](Index f) {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        if (is_marked(h) && mesh_.is_edge_owner(h) && !is_stopped(execution_))
+          middles_[place_of_middle(h)] = edge_middle(surface_, h);
+    }, heavy_chunk_length);
+  }
+
+  bool is_marked(Index h) const { return (codes_[Mesh_view::face(h)] >> h % 3 & 1) != 0; }
+
+  Index place_of_middle(Index owner) const
+  {
+    const Index f = Mesh_view::face(owner);
+    return first_middle_[f] + owned_edges(3 * f, owner);
+  }
+
+  /// The number of halfedges in `[begin, end)` that own their edge.
+  Index owned_edges(Index begin, Index end) const
+  {
+    Index n = 0;
+    for (Index h = begin; h < end; ++h) n += mesh_.is_edge_owner(h) ? 1 : 0;
+    return n;
+  }
+
+  const Placed_vertex<Metric>& middle(Index h) const { return middles_[place_of_middle(mesh_.edge_owner(h))]; }
+
+  /// Corner `label` of face `f`, or, from 3 on, the middle of a marked edge of it.
+  Placed_vertex<Metric> vertex_of_label(Index f, std::uint8_t label) const
+  {
+    return label < 3 ? surface_.vertex(mesh_.corner[3 * f + label]) : middle(3 * f + label - 3);
+  }
+
+  using Child = std::array<Placed_vertex<Metric>, 3>;
+
+  Child child(Index f, const std::array<std::uint8_t, 3>& labels) const
+  {
+    return {vertex_of_label(f, labels[0]), vertex_of_label(f, labels[1]), vertex_of_label(f, labels[2])};
+  }
+
   /// Prepares the new vertex arrays: kept vertices are copied, midpoints are placed on the surface.
   void place_vertices(const Restructuring& plan)
   {
@@ -275,10 +330,9 @@ private:
         if (mesh_.outgoing[v] == h)
           write(plan.vertex(v), surface_.vertex(v), surface_.origin[v],
                 is_at_split(v) ? all_kernels : surface_.active[v]);
-        if (plan.is_split(h) && mesh_.is_edge_owner(h) && !is_stopped(execution_))
-          write(plan.midpoint(h), edge_middle(surface_, h), no_index, all_kernels);
+        if (plan.is_split(h) && mesh_.is_edge_owner(h)) write(plan.midpoint(h), middle(h), no_index, all_kernels);
       }
-    }, heavy_chunk_length);
+    });
   }
 
   bool is_at_split(Index v) const
@@ -302,12 +356,12 @@ private:
   }
 
   /// Whether the midpoints of the face lie between the ends of their edges: else splitting would go on for ever.
-  bool are_halves_shorter(const Restructuring& plan, Index f) const
+  bool are_halves_shorter(Index f) const
   {
     for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-      if (!plan.is_split(h)) continue;
+      if (!is_marked(h)) continue;
       const Vector_3 &a = surface_.points[mesh_.source(h)], &b = surface_.points[mesh_.target(h)];
-      const Vector_3& m = points_[plan.midpoint(h)];
+      const Vector_3& m = middle(h).point;
       if ((std::max)((m - a).norm(), (m - b).norm()) > max_half * (b - a).norm()) return false;
     }
     return true;
@@ -316,12 +370,12 @@ private:
   /// Unmarks edges of faces with a child that turns away from its parent; whether there was one. The longest edge keeps
   /// its mark unless it had the only one: it can be split where the others can not, as on needles, and would else keep
   /// the edges around it long.
-  bool take_back_marks_of_bad_faces(const Restructuring& plan)
+  bool take_back_marks_of_bad_faces()
   {
     for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t i) {
       const Index f = Index(i);
       const std::uint8_t code = codes_[f];
-      const bool is_good = code == 0 || (are_halves_shorter(plan, f) && are_children_upright(plan, f, code));
+      const bool is_good = code == 0 || (are_halves_shorter(f) && are_children_upright(f, code));
       taken_back_[f] = is_good ? std::uint8_t(0) : has_several_marks(code) ? all_but_longest(f) : code;
     });
     const bool is_any = count_faces([&](Index f) { return taken_back_[f] != 0; }) > 0;
@@ -343,23 +397,20 @@ private:
   }
 
   /// Of the two ways to cut the quadrilateral that two marks leave, takes the one with the better worst face.
-  void choose_diagonals(const Restructuring& plan)
+  void choose_diagonals()
   {
-    resize_and_forget(chosen_, codes_.size()); // the plan goes on reading the codes of neighbours
     for_each_index(execution_, codes_.size(), [&](std::size_t i) {
       const Index f = Index(i);
-      const std::uint8_t marks = chosen_[f] = codes_[f];
+      const std::uint8_t marks = codes_[f];
       if (marks != 3 && marks != 5 && marks != 6) return;
       const std::uint8_t other = std::uint8_t(marks | 8);
-      if (worst_child(plan, f, other) > worst_child(plan, f, marks) && are_children_upright(plan, f, other))
-        chosen_[f] = other;
+      if (worst_child(f, other) > worst_child(f, marks) && are_children_upright(f, other)) codes_[f] = other;
     });
-    codes_.swap(chosen_);
   }
 
   /// Whether the children turn neither far from their parent, unless they are thin, nor from the surface normals at
   /// their corners, see `least_alignment_after()`.
-  bool are_children_upright(const Restructuring& plan, Index f, std::uint8_t code) const
+  bool are_children_upright(Index f, std::uint8_t code) const
   {
     const auto& pattern = internal::Split_pattern::of(code);
     const Index a = mesh_.corner[3 * f], b = mesh_.corner[3 * f + 1], c = mesh_.corner[3 * f + 2];
@@ -367,50 +418,42 @@ private:
     const double limit = least_alignment_after(alignment_of_face(surface_, parent, a, b, c));
     Ring<Triangle_points> children;
     for (std::size_t i = 0; i < std::size_t(pattern.number_of_children); ++i) {
-      if (!is_child_upright(plan, f, pattern.child[i], parent, limit)) return false;
+      const Child v = child(f, pattern.child[i]);
+      if (!is_child_upright(v, parent, limit)) return false;
       if (!surface_.tolerance) continue;
-      if (!child_keeps_tolerance(plan, f, pattern.child[i])) return false;
-      const auto point = [&](std::size_t k) { return points_[plan.vertex_of_label(f, pattern.child[i][k])]; };
-      children.push_back({point(0), point(1), point(2)});
+      if (!child_keeps_tolerance(v)) return false;
+      children.push_back({v[0].point, v[1].point, v[2].point});
     }
     return !surface_.tolerance || surface_.tolerance->are_covered(std::array{f}, children);
   }
 
-  bool is_child_upright(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels,
-                        const Vector_3& parent, double limit) const
+  bool is_child_upright(const Child& v, const Vector_3& parent, double limit) const
   {
-    std::array<Index, 3> v;
-    for (std::size_t i = 0; i < 3; ++i) v[i] = plan.vertex_of_label(f, labels[i]);
-    const Vector_3 e1 = points_[v[1]] - points_[v[0]], e2 = points_[v[2]] - points_[v[0]], normal = e1.cross(e2);
+    const Vector_3 e1 = v[1].point - v[0].point, e2 = v[2].point - v[0].point, normal = e1.cross(e2);
     const double length = normal.norm();
     const bool is_parent_degenerate = parent == Vector_3::Zero();
     if (is_parent_degenerate && unit_normal(e1, e2) == Vector_3::Zero()) return true;
     if (normal.dot(parent) > in_plane * length) return true; // at sharp edges that are no features normals say little
-    const Corner_products products(normal, length, {&normals_[v[0]], &normals_[v[1]], &normals_[v[2]]});
+    const Corner_products products(normal, length, {&v[0].normal, &v[1].normal, &v[2].normal});
     const bool is_turned = !is_parent_degenerate && normal.dot(parent) <= min_turn * length;
     if (!is_turned && products.least >= limit * length) return true;
     return is_anisotropic<Metric> && products.is_smooth && length > 0 && is_thin(e1, e2, normal) &&
            alignment_of_thin_face(products.least / length) >= limit;
   }
 
-  bool child_keeps_tolerance(const Restructuring& plan, Index f, const std::array<std::uint8_t, 3>& labels) const
+  bool child_keeps_tolerance(const Child& v) const
   {
-    const auto corner = [&](std::size_t i) {
-      const Index v = plan.vertex_of_label(f, labels[i]);
-      return Located_corner{locations_[v], points_[v]};
-    };
+    const auto corner = [&](std::size_t i) { return Located_corner{v[i].location, v[i].point}; };
     return surface_.tolerance->is_kept(corner(0), corner(1), corner(2));
   }
 
-  double worst_child(const Restructuring& plan, Index f, std::uint8_t code) const
+  double worst_child(Index f, std::uint8_t code) const
   {
     double worst = 1;
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto& labels = internal::Split_pattern::of(code).child[c];
-      const Index a = plan.vertex_of_label(f, labels[0]), b = plan.vertex_of_label(f, labels[1]),
-                  d = plan.vertex_of_label(f, labels[2]);
-      worst = (std::min)(worst, face_quality(metrics_[a], metrics_[b], metrics_[d], points_[b] - points_[a],
-                                             points_[d] - points_[a]));
+      const Child v = child(f, internal::Split_pattern::of(code).child[c]);
+      worst = (std::min)(worst, face_quality(v[0].metric, v[1].metric, v[2].metric, v[1].point - v[0].point,
+                                             v[2].point - v[0].point));
     }
     return worst;
   }
@@ -435,7 +478,9 @@ private:
   std::size_t expected_vertices_ = 0; // for all sweeps
   std::optional<Limit_of_refinement> limit_; // the same
   bool is_at_limit_ = false, is_waiting_ = false;
-  Buffer<std::uint8_t> codes_, chosen_, taken_back_;
+  Buffer<std::uint8_t> codes_, taken_back_;
+  Buffer<Index> first_middle_; // of each face
+  Buffer<Placed_vertex<Metric>> middles_;
   // the other half of a double buffer: swapped with the surface by `commit`
   Mesh_view spare_;
   Buffer<Vector_3> points_, normals_;
