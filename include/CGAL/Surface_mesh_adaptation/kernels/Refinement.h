@@ -314,7 +314,7 @@ private:
     return {vertex_of_label(f, labels[0]), vertex_of_label(f, labels[1]), vertex_of_label(f, labels[2])};
   }
 
-  /// Prepares the new vertex arrays: kept vertices are copied, midpoints are placed on the surface.
+  /// Fills the new vertex arrays with the vertices that stay and the middles of marked edges.
   void place_vertices(const Restructuring& plan)
   {
     const std::size_t n = plan.number_of_vertices();

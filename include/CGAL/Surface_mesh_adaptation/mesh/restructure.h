@@ -139,12 +139,6 @@ public:
 
   bool is_split(Index h) const { return (codes_[h / 3] >> (h % 3) & 1) != 0; }
 
-  /// The new id of a corner (0 to 2) or midpoint (3 to 5) of face `f`.
-  Index vertex_of_label(Index f, int label) const
-  {
-    return label < 3 ? vertex(mesh_.corner[3 * std::size_t(f) + std::size_t(label)]) : midpoint(3 * f + Index(label - 3));
-  }
-
   /// Writes the new connectivity into `result`, of which the memory is reused; new memory is fetched for
   /// `expected_vertices`.
   template <class Execution>
