@@ -15,12 +15,14 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
 #include <limits>
 #include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace {
 
@@ -383,15 +385,26 @@ TEST(Visitor, follows_the_rounds_that_meet_a_number_of_vertices)
   expect_a_row_for_each_kernel_and_round(report);
 }
 
+/// Takes longer than tasks go on without asking: what follows asks again.
+struct Late_visitor : Stopping_visitor
+{
+  void kernel_done(const SMA::Kernel_report& k)
+  {
+    Stopping_visitor::kernel_done(k);
+    if (!go_on()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+};
+
 TEST(Visitor, that_stops_leaves_a_valid_mesh)
 {
   for (std::size_t kernels = 1; kernels < 10; ++kernels) {
     const Soup before = shapes::torus(24, 12, 0.2);
     Mesh mesh = shapes::mesh<Mesh>(before);
-    Stopping_visitor visitor;
+    Late_visitor visitor;
     visitor.stop_after = kernels;
     const auto report =
-      SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.05), params::visitor(std::ref(visitor)));
+      SMA::adapt_surface_mesh(mesh, SMA::Uniform_metric_field(0.05),
+                              params::visitor(std::ref(visitor)).count_self_intersections(true));
     EXPECT_TRUE(report.stopped);
     EXPECT_EQ(visitor.kernels, kernels);
     EXPECT_FALSE(mesh.has_garbage());
@@ -399,6 +412,7 @@ TEST(Visitor, that_stops_leaves_a_valid_mesh)
     ASSERT_TRUE(checks::is_manifold(shapes::soup(mesh)));
     EXPECT_EQ(checks::topology(shapes::soup(mesh)), checks::topology(before));
     EXPECT_EQ(report.final.vertices, num_vertices(mesh));
+    EXPECT_TRUE(report.self_intersections.are_counted);
   }
 }
 

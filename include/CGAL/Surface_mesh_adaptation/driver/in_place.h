@@ -220,8 +220,10 @@ private:
       creases_->take_new();
       return false;
     }
+    const Effect_of_interruption once(execution_.interruption(), effect_after(report_));
     if constexpr (may_avoid_intersections)
       if (guard_ && !accepts(*surface)) return false;
+    const Effect_of_interruption write_all(execution_.interruption(), Interruption::Effect::none);
     write(reference, *surface);
     surface->release(execution_);
     return true;
@@ -252,9 +254,9 @@ private:
       return kernels_(execution_, surface);
     }();
     result.seconds = seconds_ += result.seconds;
+    const Effect_of_interruption once(execution_.interruption(), effect_after(result));
     if (guard_ || intersections_.are_counted) round_to_points<Point>(execution_, surface);
     if (!tolerance_ || is_in_vain(result)) return result;
-    const Effect_of_interruption once(execution_.interruption(), effect_after(result));
     result.tolerance = tolerance_->distance;
     result.certified_distance = certified_distance(execution_, *tolerance_, surface);
     return result;
@@ -265,7 +267,6 @@ private:
   template <class Surface>
   bool accepts(const Surface& surface)
   {
-    const Effect_of_interruption once(execution_.interruption(), effect_after(report_));
     const std::vector<Face_pair> pairs = guard_->new_pairs(execution_, surface);
     if (pairs.empty()) return true;
     if (report_.stopped) throw Self_intersection_error(pairs.size());
@@ -284,7 +285,6 @@ private:
   template <class Surface>
   void write(const Reference& reference, Surface& surface)
   {
-    const Effect_of_interruption write_all(execution_.interruption(), Interruption::Effect::none);
     if constexpr (may_count_intersections)
       if (intersections_.are_counted) intersections_.after = count_intersections(surface);
     values_->prepare(execution_, surface);
