@@ -12,6 +12,7 @@
 #include "adapt_mesh/mesh_files.h"
 #include "adapt_mesh/metric_files.h"
 #include "adapt_mesh/options.h"
+#include "adapt_mesh/sampled_distance.h"
 #include "adapt_mesh/size_parameters.h"
 #include "adapt_mesh/summary.h"
 
@@ -133,7 +134,10 @@ void run(const Options& options)
   interrupts.end();
   if (options.quiet) return;
   print_warnings(report);
-  print_summary(report, input, mesh.mesh);
+  const double distance = with_execution(options, [&](const auto& execution) {
+    return sampled_distance(execution, input, mesh.mesh);
+  });
+  print_summary(report, distance, diagonal(input));
 }
 
 Exit_status guarded_main(int argc, char* argv[])

@@ -9,6 +9,8 @@
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/IO/MEDIT.h>
+#include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
+#include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/metric/Metric_tensor_3.h>
 
 #include <CGAL/IO/polygon_soup_io.h>
@@ -141,6 +143,34 @@ TEST_F(Adapt_mesh, prints_a_summary_only_if_not_quiet)
   EXPECT_NE(talkative.err.find("round 1/"), std::string::npos);
   EXPECT_EQ(quiet.out + quiet.err, "");
   EXPECT_NE(verbose.err.find("refine"), std::string::npos);
+}
+
+double distance_between(const Soup& a, const Soup& b, double precision)
+{
+  const auto tree = [](const Soup& soup) {
+    std::vector<SMA::Triangle_points> triangles;
+    for (const shapes::Triangle& t : soup.triangles)
+      triangles.push_back({soup.points[t[0]], soup.points[t[1]], soup.points[t[2]]});
+    return SMA::Triangle_tree(SMA::Sequential_execution(), triangles);
+  };
+  return SMA::hausdorff_distance_bound(SMA::Sequential_execution(), tree(a), tree(b), precision);
+}
+
+TEST_F(Adapt_mesh, says_how_far_the_result_is_the_same_each_time)
+{
+  for (const std::string options : {"--size 0.8", "--size 0.3", "--size 0.06", "--size 0.06 --flat"}) {
+    SCOPED_TRACE(options);
+    std::set<double> said;
+    for (const std::string execution : {"sequential", "tbb", "openmp"}) {
+      const Outcome r = run("in.off out.off " + options + " --execution " + execution);
+      ASSERT_EQ(r.status, 0) << r.err;
+      said.insert(std::stod(r.out.substr(r.out.find("distance") + 8)));
+    }
+    const double distance = distance_between(sphere_, read(path("out.off")), 1e-4);
+    ASSERT_EQ(said.size(), 1u);
+    EXPECT_LT(*said.begin(), 1.005 * distance);
+    EXPECT_GT(*said.begin(), 0.95 * distance - 1e-4);
+  }
 }
 
 TEST_F(Adapt_mesh, explains_itself)

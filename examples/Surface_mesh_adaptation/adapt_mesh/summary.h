@@ -7,40 +7,24 @@
 
 #include <CGAL/Surface_mesh_adaptation/Adaptation_report.h>
 
-#include <CGAL/Polygon_mesh_processing/distance.h>
-
-#include <algorithm>
 #include <cstdio>
 #include <string>
 
 namespace adapt_mesh {
 
-/// Two-sided Hausdorff distance between samples: the same number of points on any mesh, the same points in any run.
-inline double sampled_distance(const Mesh& a, const Mesh& b)
-{
-  constexpr unsigned number_of_samples = 50000;
-  const auto parameters = CGAL::parameters::number_of_points_on_faces(number_of_samples)
-                            .do_sample_vertices(false)
-                            .do_sample_edges(false)
-                            .random_seed(0);
-  return CGAL::Polygon_mesh_processing::approximate_symmetric_Hausdorff_distance<CGAL::Sequential_tag>(a, b, parameters,
-                                                                                                       parameters);
-}
-
-/// Prints what was reached, on stdout.
-inline void print_summary(const SMA::Adaptation_report& report, const Mesh& input, const Mesh& output)
+/// Prints what was reached, on stdout; `distance` is that between samples of input and output.
+inline void print_summary(const SMA::Adaptation_report& report, double distance, double diagonal)
 {
   const SMA::Mesh_statistics& before = report.initial;
   const SMA::Mesh_statistics& after = report.final;
-  const double distance = sampled_distance(input, output);
   std::printf("vertices  %zu -> %zu\n", before.vertices, after.vertices);
   std::printf("in range  %.2f %% -> %.2f %% of the edges\n", 100 * before.in_range, 100 * after.in_range);
   std::printf("quality   %.3f -> %.3f mean, %.3f -> %.3f worst; smallest angle %.1f degrees\n", before.mean_quality,
               after.mean_quality, before.min_quality, after.min_quality, after.min_angle);
-  std::printf("distance  %.3g, %.3g of the diagonal (sampled)\n", distance, distance / diagonal(input));
+  std::printf("distance  %.3g, %.3g of the diagonal (sampled)\n", distance, distance / diagonal);
   if (report.deviation > 0)
     std::printf("deviation %.3g, %.3g of the diagonal: of the faces from the surface, at a few places\n", report.deviation,
-                report.deviation / diagonal(input));
+                report.deviation / diagonal);
   if (report.tolerance > 0)
     std::printf("certified %.3g, %.3g of the tolerance\n", report.certified_distance,
                 report.certified_distance / report.tolerance);
