@@ -6,6 +6,7 @@
 #include "mesh_files.h"
 
 #include <CGAL/Surface_mesh_adaptation/distance/Triangle_tree.h>
+#include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
 
@@ -24,60 +25,42 @@ SMA::Triangle_tree tree_of_faces(const Execution& execution, const Mesh& mesh)
   return SMA::Triangle_tree(execution, surface.mesh, surface.points);
 }
 
-/// A point of a surface, and the place of its triangle in the tree.
-struct Sample
-{
-  SMA::Vector_3 point;
-  std::size_t triangle;
-};
-
 /// Points spread evenly over the area, in the order of the tree, every second one at a corner: the same number on any
 /// mesh, the same points in any run. Within the triangles they follow a sequence that leaves no gaps (M. Roberts, *The
 /// unreasonable effectiveness of quasirandom sequences*, 2018).
-inline std::vector<Sample> samples(const SMA::Triangle_tree& tree)
+inline std::vector<SMA::Vector_3> samples(const SMA::Triangle_tree& tree)
 {
   constexpr std::size_t number_of_samples = 50000;
   constexpr double step_u = 0.7548776662466927, step_v = 0.5698402909980532;
   const auto area = [&](std::size_t i) {
     return (tree[i][1] - tree[i][0]).cross(tree[i][2] - tree[i][0]).norm();
   };
+  const auto fraction = [](double x) { return x - std::floor(x); };
   const auto inside = [&](std::size_t i, std::size_t n) {
-    const double u = std::fmod(0.5 + double(n) * step_u, 1), v = std::fmod(0.5 + double(n) * step_v, 1);
+    const double u = fraction(0.5 + double(n) * step_u), v = fraction(0.5 + double(n) * step_v);
     const auto [s, t] = u + v > 1 ? std::pair(1 - u, 1 - v) : std::pair(u, v);
     return SMA::Vector_3(tree[i][0] + s * (tree[i][1] - tree[i][0]) + t * (tree[i][2] - tree[i][0]));
   };
   double whole = 0, passed = 0;
   for (std::size_t i = 0; i < tree.size(); ++i) whole += area(i);
-  std::vector<Sample> result;
+  std::vector<SMA::Vector_3> result;
   result.reserve(number_of_samples);
   for (std::size_t i = 0; i < tree.size(); ++i) {
     passed += area(i);
     for (std::size_t n = result.size(); n < number_of_samples && (double(n) + 0.5) * whole < passed * number_of_samples; ++n)
-      result.push_back({n % 2 == 0 ? inside(i, n / 2) : tree[i][n / 2 % 3], i});
+      result.push_back(n % 2 == 0 ? inside(i, n / 2) : tree[i][n / 2 % 3]);
   }
   return result;
 }
 
-/// The largest distance of samples of one surface from the other. That of a few is a bound that triangles near the others
-/// mostly stay within, so that few ask for the nearest one.
+/// The largest distance of samples of one surface from the other.
 template <class Execution>
 double one_sided_sampled_distance(const Execution& execution, const SMA::Triangle_tree& from, const SMA::Triangle_tree& to)
 {
-  constexpr std::size_t stride = 8;
-  const std::vector<Sample> of = samples(from);
-  std::vector<std::size_t> guess((of.size() + stride - 1) / stride);
-  const auto larger = [](double a, double b) { return (std::max)(a, b); };
-  const double least = SMA::reduce(execution, guess.size(), 0.0, [&](std::size_t j) {
-    const Sample& s = of[stride * j];
-    const auto nearest = to.nearest(s.point, to.towards(s.point, s.triangle * to.size() / from.size()));
-    guess[j] = nearest.triangle;
-    return nearest.squared_distance;
-  }, larger);
-  return std::sqrt(SMA::reduce(execution, of.size(), least, [&](std::size_t i) {
-    const std::size_t near = to.towards(of[i].point, guess[i / stride]);
-    if (SMA::squared_distance_to_triangle(of[i].point, to[near]) <= least) return least;
-    return to.nearest(of[i].point, near).squared_distance;
-  }, larger));
+  const std::vector<SMA::Vector_3> points = samples(from);
+  return std::sqrt(SMA::accumulate(execution, points.size(), SMA::Largest_distance(), [&](auto& largest, std::size_t i) {
+    largest.add(to, points[i]);
+  }, SMA::larger).squared());
 }
 
 /// Two-sided Hausdorff distance between samples.

@@ -242,6 +242,36 @@ inline double distance_bound(const Triangle_tree& tree, const Triangle_points& t
   return upper;
 }
 
+/// The largest distance of points, each near the one before, from a surface. Most are nearer to a triangle that a walk
+/// finds than one before them was to any, and do not ask for the nearest.
+class Largest_distance
+{
+public:
+  explicit Largest_distance(std::size_t guess = 0) : near_(guess) {}
+
+  void add(const Triangle_tree& tree, const Vector_3& p)
+  {
+    near_ = tree.towards(p, near_);
+    if (squared_distance_to_triangle(p, tree[near_]) <= squared_) return;
+    const auto nearest = tree.nearest(p, near_);
+    near_ = nearest.triangle;
+    squared_ = (std::max)(squared_, nearest.squared_distance);
+  }
+
+  std::size_t near_last() const { return near_; } ///< a triangle near the last point
+  double squared() const { return squared_; }
+
+private:
+  double squared_ = 0;
+  std::size_t near_;
+};
+
+/// The larger one.
+inline const Largest_distance& larger(const Largest_distance& a, const Largest_distance& b)
+{
+  return a.squared() < b.squared() ? b : a;
+}
+
 /// An upper bound, by no more than `precision` too large, of the distance that points of one surface have from the
 /// other, or `least`, if that is larger. A precision that is lost in rounding is replaced by one that is not.
 template <class Execution>
@@ -251,22 +281,18 @@ double one_sided_distance_bound(const Execution& execution, const Triangle_tree&
   constexpr double rounding = 1e-13;
   constexpr std::size_t stride = 4; // of the triangles of which points tell how large the distance is at least
   precision.absolute = (std::max)(precision.absolute, rounding * (std::max)(to.magnitude(), from.magnitude()));
-  const auto larger = [](double a, double b) { return (std::max)(a, b); };
   std::vector<std::size_t> guess((from.size() + stride - 1) / stride);
-  const double lower = std::sqrt(reduce(execution, guess.size(), 0.0, [&](std::size_t j) {
-    const std::size_t i = stride * j;
-    const Vector_3 p = j % 2 == 0 ? from[i][0] : Vector_3((from[i][0] + from[i][1] + from[i][2]) / 3);
-    // both are in order along the same curve, more or less
-    const auto nearest = to.nearest(p, to.towards(p, i * to.size() / from.size()));
-    guess[j] = nearest.triangle;
-    return nearest.squared_distance;
-  }, larger));
+  const double lower = std::sqrt(accumulate(execution, guess.size(), Largest_distance(), [&](Largest_distance& d, std::size_t j) {
+    const Triangle_points& t = from[stride * j];
+    d.add(to, j % 2 == 0 ? t[0] : Vector_3((t[0] + t[1] + t[2]) / 3));
+    guess[j] = d.near_last();
+  }, larger).squared());
   const double enough = (std::max)(least, lower + precision.of(lower));
   return reduce(execution, from.size(), least, [&](std::size_t i) {
     const std::size_t near = guess[i / stride];
     return internal::is_over_surface(to, from[i], enough, near) ? enough
                                                                 : distance_bound(to, from[i], enough, precision, near);
-  }, larger);
+  }, [](double a, double b) { return (std::max)(a, b); });
 }
 
 /// An upper bound of the Hausdorff distance between two surfaces, by no more than `precision` too large. O(n log n) for
