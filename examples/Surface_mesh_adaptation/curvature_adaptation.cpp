@@ -31,6 +31,8 @@ int main(int argc, char* argv[])
   const CGAL::Bbox_3 box = CGAL::Polygon_mesh_processing::bbox(mesh);
   const double diagonal = std::hypot(box.x_span(), box.y_span(), box.z_span());
 
+  Mesh rough = mesh;
+
   //! [curvature]
   SMA::Curvature_metric_field field(0.001); // of the diagonal of the bounding box
   field.gradation = 1.2;                    // neighbouring sizes differ less than by default
@@ -43,5 +45,14 @@ int main(int argc, char* argv[])
   std::cout << report.initial.vertices << " vertices became " << report.final.vertices << ", "
             << std::count_if(all.begin(), all.end(), [&](Mesh::Edge_index e) { return is_ridge[e]; })
             << " edges lie on ridges\n";
+
+  // few faces, within a distance
+  //! [within]
+  const double distance = 0.005;
+  const SMA::Adaptation_report within = SMA::adapt_surface_mesh(
+    rough, SMA::Curvature_metric_field::for_tolerance(distance), SMA::parameters::tolerance(distance * diagonal));
+  //! [within]
+  std::cout << within.final.vertices << " vertices are enough within " << within.certified_distance / diagonal
+            << " diagonals\n";
   return CGAL::IO::write_polygon_mesh("curvature_adaptation.off", mesh) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

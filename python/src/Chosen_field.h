@@ -71,9 +71,13 @@ void stretch(const Options& options, Field& field)
   if (options.max_anisotropy > 0) field.max_anisotropy = options.max_anisotropy;
 }
 
-inline Curvature_field curvature_field(const Options& options, double tolerance_by_default)
+/// \param relative_tolerance the tolerance as a fraction of the diagonal, infinite if none was given
+inline Curvature_field curvature_field(const Options& options, double relative_tolerance)
 {
-  auto field = configured(options, Curvature_field(options.curvature > 0 ? options.curvature : tolerance_by_default));
+  constexpr double any_tolerance = 0.001; // with a number of vertices the tolerance follows from it
+  auto field = configured(options, options.curvature > 0  ? Curvature_field(options.curvature)
+                                   : options.vertices > 0 ? Curvature_field(any_tolerance)
+                                                          : Curvature_field::for_tolerance(relative_tolerance));
   stretch(options, field);
   field.noisy = options.noisy;
   if (options.curvature == 0) field.vertices = options.vertices;
@@ -111,14 +115,12 @@ inline Chosen_field field_of_solution(const Options& options, const Size_map& va
 /// \param relative_tolerance the tolerance as a fraction of the diagonal, infinite if none was given
 inline Chosen_field chosen_field(const Options& options, const Array_surface& surface, double relative_tolerance)
 {
-  constexpr double any_tolerance = 0.001; // with a number of vertices the tolerance follows from it
-  constexpr double largest_gap = 2.5;     // of meshes with the sizes for a tolerance, in units of that
   const std::vector<std::size_t>* const points = &surface.point_of_vertex;
   if (options.size > 0) return SMA::Uniform_metric_field(options.size);
   if (!options.sizes.empty()) return field_of_map(options, Size_map{options.sizes, points});
   if (!options.tensors.empty()) return field_of_map(options, Tensor_map{options.tensors, points});
   if (!options.field.empty()) return field_of_solution(options, Size_map{options.field, points});
-  return curvature_field(options, options.vertices > 0 ? any_tolerance : relative_tolerance / largest_gap);
+  return curvature_field(options, relative_tolerance);
 }
 
 } // namespace sma_python

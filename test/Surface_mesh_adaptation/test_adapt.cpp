@@ -20,6 +20,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -779,11 +780,37 @@ TEST(Tolerance, is_kept_by_meshes_that_are_sized_for_it)
       const Mesh mesh = real_mesh<Mesh>(name);
       const double diagonal = SMA::internal::diagonal_of_bounding_box(shapes::soup(mesh).points);
       for (const bool anisotropic : {false, true}) {
-        SMA::Curvature_metric_field field(relative / 2.5);
+        SMA::Curvature_metric_field field = SMA::Curvature_metric_field::for_tolerance(relative);
         field.anisotropic = anisotropic;
         expect_tolerance_is_kept(mesh, field, relative * diagonal);
       }
     }
+}
+
+/// Few facets that meet at any angle.
+Soup crumpled(const Soup& soup, unsigned seed)
+{
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> factor(0.6, 1.4);
+  Soup result = soup;
+  for (Vector_3& p : result.points) p *= factor(random);
+  return result;
+}
+
+TEST(Tolerance, is_kept_where_long_edges_bend)
+{
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const Soup before = crumpled(seed % 2 == 0 ? shapes::sphere(1) : shapes::torus(10, 6), seed);
+    Mesh mesh = shapes::mesh<Mesh>(before);
+    const double relative = seed % 4 < 2 ? 0.004 : 0.002;
+    const double tolerance = relative * SMA::internal::diagonal_of_bounding_box(before.points);
+    const auto report = SMA::adapt_surface_mesh(mesh, SMA::Curvature_metric_field::for_tolerance(relative),
+                                                SMA::parameters::tolerance(tolerance).detect_features(seed % 3 == 0));
+    EXPECT_LE(report.certified_distance, tolerance);
+    EXPECT_GT(report.final.in_range, 0.7);
+    EXPECT_EQ(report.deviation, 0); // nothing is corrected
+  }
 }
 
 TEST(Tolerance, is_kept_against_sizes_that_are_far_too_coarse)

@@ -29,12 +29,11 @@ Field configured(const Options& options, Field field)
 
 inline SMA::Curvature_metric_field curvature_field(const Options& options)
 {
-  constexpr double any_tolerance = 0.001;  // with a number of vertices the tolerance follows from it
-  constexpr double largest_gap = 2.5;      // of meshes with the sizes for a tolerance, in units of that
-  const double tolerance = options.curvature > 0   ? options.curvature
-                           : options.vertices > 0  ? any_tolerance
-                                                   : options.tolerance / largest_gap;
-  auto field = configured(options, SMA::Curvature_metric_field(tolerance));
+  constexpr double any_tolerance = 0.001; // with a number of vertices the tolerance follows from it
+  using Field = SMA::Curvature_metric_field;
+  auto field = configured(options, options.curvature > 0  ? Field(options.curvature)
+                                   : options.vertices > 0 ? Field(any_tolerance)
+                                                          : Field::for_tolerance(options.tolerance));
   field.anisotropic = options.anisotropic;
   if (options.curvature == 0) field.vertices = std::size_t(options.vertices);
   return field;

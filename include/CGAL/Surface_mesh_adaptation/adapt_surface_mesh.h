@@ -58,7 +58,7 @@ void warn_of_bulges(const Any_execution& execution, const Curvature_metric_field
                     Adaptation_report& report)
 {
   constexpr double several = 4;
-  if (report.stopped || field.vertices > 0) return;
+  if (report.stopped || field.vertices > 0 || !field.corrected) return;
   const double tolerance = field.relative_tolerance * diagonal_of_bounding_box(reference.points);
   const double bulge = surface_bulge(execution, reference, several * tolerance);
   if (bulge == 0) return;

@@ -42,7 +42,8 @@ struct Uniform_metric_field
 /// smooth one over the faces of the input, or these with `Flat_reconstruction`. After the rounds sizes are tightened
 /// around faces that are farther away than that, until there are ten times the vertices. Where faces still are, edges of the
 /// input that turn by a third of the `feature_angle` become ridges, and all is done again, up to three times. The report warns
-/// of that, and of more than 1.3 times the tolerance. No distance is certified, see the parameter `tolerance` for that.
+/// of that, and of more than 1.3 times the tolerance. No distance is certified, see the parameter `tolerance` for that,
+/// and `for_tolerance()` where that alone counts.
 ///
 /// Lengths are in the unit of the coordinates. An `hmin` above `hmax` or a `max_anisotropy` below 1 makes the adaptation
 /// throw an `Invalid_parameter_error`.
@@ -61,12 +62,23 @@ struct Curvature_metric_field
   std::size_t vertices = 0;    ///< if not 0, the tolerance is that with which the mesh has so many vertices
   bool proximity = true;       ///< let sizes across narrow strips between feature curves, which are kept, fit these,
                                ///< whatever the gradation and the anisotropy (`proximity_tensors()`); if `anisotropic`
+  bool corrected = true;       ///< tighten sizes where faces turn out to be farther away than the tolerance
 
   /// \throws Invalid_parameter_error if the tolerance is not positive and finite
   explicit Curvature_metric_field(double relative_tolerance_) : relative_tolerance(relative_tolerance_)
   {
     if (!(relative_tolerance > 0) || !std::isfinite(relative_tolerance))
       throw Invalid_parameter_error("the tolerance must be positive and finite");
+  }
+
+  /// Few faces within a distance of `relative_tolerance` diagonals of the input, which the parameter `tolerance` keeps. Nothing
+  /// is corrected: sizes need only be such that little is refused.
+  static Curvature_metric_field for_tolerance(double relative_tolerance)
+  {
+    constexpr double share = 2.0 / 3;
+    Curvature_metric_field field(share * relative_tolerance);
+    field.corrected = false;
+    return field;
   }
 };
 

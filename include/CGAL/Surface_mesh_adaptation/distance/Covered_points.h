@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Points of the input that the faces of an adapted mesh cover: its vertices and the centroids of its faces. An operation
-// that replaces faces keeps the distance from the input to the mesh if the points that the old ones cover are near the
+// Points of the input that the faces of an adapted mesh cover: its vertices, the centroids of its faces, and some on edges
+// where it bends so much that a face between these points may cut the edge off. An operation that replaces faces keeps the distance from the input to the mesh if the points that the old ones cover are near the
 // new ones, to which they are handed on. However many operations there are, nothing adds up.
 //
 // Each face has a list of its points, linked through them. Operations write the lists of the faces that they replace
@@ -18,24 +18,33 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+/// Where edges are covered, too.
+struct Covered_edges
+{
+  double least_height;   ///< of their middle above the line between the centroids of their faces
+  double least_distance; ///< of points on them
+  std::size_t points;    ///< on each of them, at most
+};
+
 class Covered_points
 {
 public:
   /// The faces of `mesh`, none of which is removed, cover themselves. Work: O(n).
   template <class Execution, class Points>
-  Covered_points(const Execution& execution, const Mesh_view& mesh, const Points& points)
+  Covered_points(const Execution& execution, const Mesh_view& mesh, const Points& points, const Covered_edges& edges)
   {
     const std::size_t n = mesh.number_of_faces();
     Buffer<Index> offset;
     const std::size_t size = exclusive_scan(execution, n, offset, [&](std::size_t f) {
       Index count = 0;
-      for_each_own_point(mesh, points, Index(f), [&](const Vector_3&) { ++count; });
+      for_each_own_point(mesh, points, edges, Index(f), [&](const Vector_3&) { ++count; });
       return count;
     });
     lists_.resize(n, size);
@@ -43,7 +52,7 @@ public:
     for_each_index(execution, n, [&](std::size_t f) {
       lists_.first[f] = no_index;
       Index i = offset[f];
-      for_each_own_point(mesh, points, Index(f), [&](const Vector_3& p) {
+      for_each_own_point(mesh, points, edges, Index(f), [&](const Vector_3& p) {
         points_[i] = p;
         lists_.link(i++, Index(f));
       });
@@ -99,14 +108,30 @@ public:
   }
 
 private:
-  /// Calls `add(p)` for the centroid of `f` and those of its corners that no other face has.
+  /// Calls `add(p)` for the centroid of `f`, and those of its corners and points on its edges that no other face has.
   template <class Points, class Add>
-  static void for_each_own_point(const Mesh_view& mesh, const Points& points, Index f, const Add& add)
+  static void for_each_own_point(const Mesh_view& mesh, const Points& points, const Covered_edges& edges, Index f,
+                                 const Add& add)
   {
     const auto corner = [&](Index k) -> const Vector_3& { return points[mesh.corner[3 * std::size_t(f) + k]]; };
     for (Index k = 0; k < 3; ++k)
       if (mesh.outgoing[mesh.corner[3 * std::size_t(f) + k]] == 3 * f + k) add(corner(k));
     add((corner(0) + corner(1) + corner(2)) / 3);
+    for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+      if (!mesh.is_edge_owner(h) || mesh.is_border(h) || height_of_bend(mesh, points, h) <= edges.least_height) continue;
+      const Vector_3 &p = points[mesh.source(h)], way = points[mesh.target(h)] - p;
+      const double n = (std::min)(double(edges.points), std::floor(way.norm() / edges.least_distance));
+      for (double i = 1; i <= n; ++i) add(p + i / (n + 1) * way);
+    }
+  }
+
+  /// How far the middle of an edge is from the line between the centroids of its faces.
+  template <class Points>
+  static double height_of_bend(const Mesh_view& mesh, const Points& points, Index h)
+  {
+    const Vector_3 ends = points[mesh.source(h)] + points[mesh.target(h)];
+    return std::sqrt(squared_distance_to_segment(ends / 2, (ends + points[mesh.apex(h)]) / 3,
+                                                 (ends + points[mesh.apex(mesh.twin[h])]) / 3));
   }
 
   template <class Triangles>

@@ -22,6 +22,7 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 #include <CGAL/Surface_mesh_adaptation/parameters.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <limits>
@@ -82,19 +83,20 @@ void round_to_points(const Any_execution& execution, Surface& surface)
     });
 }
 
-/// Calls `adapt()`, which returns a report with a certified distance, with ever stricter operations until that distance
-/// is within the tolerance, or until it is known that all `is_in_vain(report)`.
+/// Calls `adapt()`, which returns a report with a certified distance, with ever stricter operations, which look at more and
+/// more points, until that distance is within the tolerance, or until it is known that all `is_in_vain(report)`.
 /// \throws Tolerance_error
 template <class Adapt, class Is_in_vain>
 Adaptation_report adapt_within(Tolerance& tolerance, const Adapt& adapt, const Is_in_vain& is_in_vain)
 {
   constexpr int max_attempts = 4;
-  constexpr double safety = 0.9;
+  constexpr double safety = 0.9, least_step = 0.85; // what is missing is mostly points, see `Covered_points`
   for (int attempt = 1;; ++attempt) {
     const Adaptation_report report = adapt();
     if (report.certified_distance <= tolerance.distance || is_in_vain(report)) return report;
     if (attempt == max_attempts || report.stopped) throw Tolerance_error(report.certified_distance, tolerance.distance);
-    tolerance.of_operations *= safety * tolerance.distance / report.certified_distance;
+    tolerance.of_operations *= (std::max)(least_step, safety * tolerance.distance / report.certified_distance);
+    tolerance.points_on_edges = 4 * tolerance.points_on_edges + 3;
   }
 }
 

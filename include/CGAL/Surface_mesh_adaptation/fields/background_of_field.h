@@ -361,7 +361,7 @@ Metric_aims aims(const Execution& execution, const Field& field, [[maybe_unused]
   Metric_aims result;
   result.number_of_vertices = attainable_number_of_vertices(execution, field, reference, values);
   if constexpr (std::is_same_v<Field, Curvature_metric_field>) {
-    if (field.vertices > 0) return result;
+    if (field.vertices > 0 || !field.corrected) return result;
     result.deviation = field.relative_tolerance * diagonal_of_bounding_box(reference.points);
     result.deviation_of_face = deviations_of_faces(field, result.deviation, input.deviations);
     result.hmin = field.hmin > 0 ? field.hmin : least_deviation(result.deviation, result.deviation_of_face);

@@ -21,6 +21,7 @@ struct Tolerance
   double distance;      ///< that is asked for
   double of_operations; ///< that each operation keeps: less, for operations add up
   Triangle_tree input;
+  std::size_t points_on_edges = 3; ///< at most, where the input bends, that operations stay near
 };
 
 /// Pieces of a face of which the distance from the input is bounded where it may stand for hundreds of others.
@@ -41,7 +42,9 @@ public:
   /// Both must live as long as the guard.
   template <class Execution>
   Tolerance_guard(const Execution& execution, const Reference& reference, const Tolerance& tolerance)
-    : reference_(&reference), tolerance_(&tolerance), covered_(execution, reference.mesh, reference.points)
+    : reference_(&reference), tolerance_(&tolerance)
+    , covered_(execution, reference.mesh, reference.points,
+               {share_of_height * tolerance.of_operations, tolerance.of_operations, tolerance.points_on_edges})
   {}
 
   double of_operations() const { return tolerance_->of_operations; }
@@ -81,6 +84,8 @@ public:
   }
 
 private:
+  static constexpr double share_of_height = 0.25;
+
   /// To a face that covers a point, so that it need not be the nearest.
   double near_enough() const { return of_operations() / 8; }
 
