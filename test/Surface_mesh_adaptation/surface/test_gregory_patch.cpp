@@ -4,14 +4,18 @@
 
 #include "surface/patches.h"
 
+#include <CGAL/Surface_mesh_adaptation/numerics/cubic_curve.h>
 #include <CGAL/Surface_mesh_adaptation/surface/feature_normals.h>
 #include <CGAL/Surface_mesh_adaptation/surface/patch_fallbacks.h>
+#include <CGAL/Surface_mesh_adaptation/surface/surface_bulge.h>
 #include <CGAL/Surface_mesh_adaptation/surface_reconstruction.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace {
 
@@ -192,6 +196,35 @@ bool is_finite(const Patch& p)
         if (!x.position.allFinite() || !x.normal.allFinite() || !(x.position.norm() < 10 * size)) return false;
       }
   return true;
+}
+
+/// The largest distance of the cubic with these handles from the middle of its edge, over the length of that.
+double largest_bulge(const Vector_3& e, const SMA::internal::Cubic_handles& h)
+{
+  double largest = 0;
+  for (int i = 0; i <= 32; ++i) {
+    const double t = i / 32.0, s = 1 - t;
+    const Vector_3 p = 3 * s * s * t * h.start + 3 * s * t * t * (e + h.end) + t * t * t * e;
+    largest = (std::max)(largest, p.cross(e).norm() / e.squaredNorm());
+  }
+  return largest;
+}
+
+TEST(Gregory_patch, has_curves_over_its_edges_that_stay_near_these)
+{
+  std::mt19937 random(1);
+  std::normal_distribution<double> coordinate;
+  const auto direction = [&] { return Vector_3(coordinate(random), coordinate(random), coordinate(random)).normalized(); };
+  double smooth = 0, feature = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const Vector_3 e = direction(), a = direction(), b = direction();
+    smooth = (std::max)(smooth, largest_bulge(e, SMA::internal::smooth_handles(e, a, b)));
+    feature = (std::max)(feature, largest_bulge(e, SMA::internal::feature_handles(e, a, b)));
+  }
+  EXPECT_GT(smooth, 0.12); // the least that is known to occur
+  EXPECT_GT(feature, 0.19);
+  EXPECT_LT(smooth, SMA::largest_bulge_of_patches);
+  EXPECT_LT(feature, SMA::largest_bulge_of_patches);
 }
 
 TEST(Gregory_patch, keeps_an_edge_straight_where_the_normals_say_nothing)

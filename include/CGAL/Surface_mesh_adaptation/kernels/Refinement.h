@@ -177,10 +177,9 @@ private:
   {
     for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
       taken_back_[f] = 0;
-      for (Index i = 0; i < 3; ++i)
-        if ((codes_[f] >> i & 1) != 0 && mesh_.is_edge_owner(3 * Index(f) + i) &&
-            is_better_than_its_parts(3 * Index(f) + i))
-          taken_back_[f] = std::uint8_t(taken_back_[f] | 1u << i);
+      for (Index h = 3 * Index(f); h < 3 * Index(f) + 3; ++h)
+        if (is_marked(h) && mesh_.is_edge_owner(h) && is_better_than_its_parts(h))
+          taken_back_[f] = std::uint8_t(taken_back_[f] | 1u << h % 3);
     }, heavy_chunk_length);
     take_back_marks();
   }
@@ -188,8 +187,8 @@ private:
   bool is_curve_marked() const
   {
     return count_faces([&](Index f) {
-      for (Index i = 0; i < 3; ++i)
-        if ((codes_[f] >> i & 1) != 0 && mesh_.is_feature(3 * f + i)) return true;
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
+        if (is_marked(h) && mesh_.is_feature(h)) return true;
       return false;
     }) > 0;
   }
@@ -250,8 +249,8 @@ private:
   {
     return reduce(execution_, mesh_.number_of_faces(), std::size_t(0), [&](std::size_t f) {
       std::size_t n = 0;
-      for (Index i = 0; i < 3; ++i)
-        if ((codes_[f] >> i & 1) != 0 && mesh_.is_edge_owner(3 * Index(f) + i)) ++n;
+      for (Index h = 3 * Index(f); h < 3 * Index(f) + 3; ++h)
+        if (is_marked(h) && mesh_.is_edge_owner(h)) ++n;
       return n;
     }, [](std::size_t a, std::size_t b) { return a + b; });
   }
