@@ -328,6 +328,22 @@ TEST(Protected_edges, are_followed_by_the_sizes_beside_them)
   EXPECT_LT(mean_quality_at_boundary(0), 0.75);
 }
 
+TEST(Protected_edges, leave_no_face_without_area_however_long_they_are)
+{
+  shapes::Random random(7);
+  for (int i = 0; i < 12; ++i) {
+    SCOPED_TRACE(i);
+    Mesh mesh = shapes::mesh<Mesh>(i % 2 == 0 ? shapes::torus(10, 6, 0.2) : shapes::cube(2));
+    auto is_protected = mesh.add_property_map<Edge, bool>("e:protected", false).first;
+    for (const Edge e : mesh.edges()) is_protected[e] = random.real(0, 1) < 0.2;
+    const auto report = SMA::adapt_surface_mesh<CGAL::Sequential_tag>(
+      mesh, SMA::Uniform_metric_field(i % 4 < 2 ? 0.1 : 0.04),
+      params::edge_is_constrained_map(is_protected).protect_constraints(true).protected_gradation(0));
+    EXPECT_GT(report.final.min_quality, 0.005);
+    EXPECT_GT(report.final.in_range, 0.75); // they are long themselves, and so are those around them
+  }
+}
+
 /// Two charts on a cylinder cut along two lines, with texture coordinates of their own.
 using Uv = CGAL::Point_2<Kernel>;
 

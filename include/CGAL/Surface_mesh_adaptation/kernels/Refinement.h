@@ -123,6 +123,7 @@ private:
   static constexpr double in_plane = 0.98; // the same, of children that are as upright as the face
   static constexpr double max_length_to_keep = 3; // of an edge that fits better than its parts: not worth a look beyond
   static constexpr double quality_of_needle = 0.1;
+  static constexpr std::uint8_t for_shape = 8; // added to marks that are taken back so that no face gets too thin
   static constexpr double max_half = 0.8;  // of an edge: the middle of a bulging arc lies well within
   static constexpr double max_share_of_holes = 0.01; // that are filled in series
   static constexpr double expected_excess = 1.2;   // vertices beyond those of a mesh of equilateral unit triangles
@@ -159,6 +160,7 @@ private:
   void mark_long_edges()
   {
     fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
+    fill(execution_, blocked_, mesh_.number_of_faces(), std::uint8_t(0));
     resize_and_forget(taken_back_, codes_.size());
     for_each_face([&](Index f) {
       for (Index i = 0; i < 3; ++i)
@@ -220,17 +222,23 @@ private:
     return count_if(execution_, mesh_.number_of_faces(), [&](std::size_t f) { return predicate(Index(f)); });
   }
 
-  /// Unmarks the edges that one of their faces has taken back.
+  /// Unmarks the edges that one of their faces has taken back, and notes those that are `for_shape`.
   void take_back_marks()
   {
     for_each_face([&](Index f) {
-      for (Index h = 3 * f; h < 3 * f + 3; ++h)
-        if (is_taken_back(h) || (!mesh_.is_border(h) && is_taken_back(mesh_.twin[h])))
-          codes_[f] = std::uint8_t(codes_[f] & ~(1u << h % 3));
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        const std::uint8_t taken = taken_back(h) | (mesh_.is_border(h) ? 0 : taken_back(mesh_.twin[h]));
+        if (taken != 0) codes_[f] = std::uint8_t(codes_[f] & ~(1u << h % 3));
+        if ((taken & for_shape) != 0) blocked_[f] = std::uint8_t(blocked_[f] | 1u << h % 3);
+      }
     });
   }
 
-  bool is_taken_back(Index h) const { return (taken_back_[Mesh_view::face(h)] >> h % 3 & 1) != 0; }
+  /// Bits that are not 0 if the face of `h` has taken its mark back.
+  std::uint8_t taken_back(Index h) const
+  {
+    return std::uint8_t(taken_back_[Mesh_view::face(h)] >> h % 3 & (1 | for_shape));
+  }
 
   /// Whether the four edges that splitting that of `h` makes fit the metric less than it does.
   bool is_better_than_its_parts(Index h) const
@@ -374,12 +382,46 @@ private:
     for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t i) {
       const Index f = Index(i);
       const std::uint8_t code = codes_[f];
-      const bool is_good = code == 0 || (are_halves_shorter(f) && are_children_upright(f, code));
-      taken_back_[f] = is_good ? std::uint8_t(0) : has_several_marks(code) ? all_but_longest(f) : code;
+      if (code != 0 && makes_needle_at_blocked_edge(f, code)) taken_back_[f] = std::uint8_t(code * (1 + for_shape));
+      else if (code == 0 || (are_halves_shorter(f) && are_children_upright(f, code))) taken_back_[f] = 0;
+      else taken_back_[f] = has_several_marks(code) ? all_but_longest(f) : code;
     });
     const bool is_any = count_faces([&](Index f) { return taken_back_[f] != 0; }) > 0;
     if (is_any) take_back_marks();
     return is_any;
+  }
+
+  /// Whether a child would be a needle along an edge that is too long and stays so: the other edges of the faces beside it
+  /// are too long, too, however thin splits make these.
+  bool makes_needle_at_blocked_edge(Index f, std::uint8_t code) const
+  {
+    for (Index i = 0; i < 3; ++i)
+      if (is_blocked(3 * f + i) && quality(child_at_edge(f, code, i)) < quality_of_needle) return true;
+    return false;
+  }
+
+  /// Whether the edge of `h` is too long and protected, or would make a needle along one that is blocked.
+  bool is_blocked(Index h) const
+  {
+    if (mesh_.is_protected(h)) return !surface_.is_shorter(mesh_.source(h), mesh_.target(h), thresholds_.max_length);
+    return (blocked_[Mesh_view::face(h)] >> h % 3 & 1) != 0;
+  }
+
+  /// That which has the edge between the corners `i` and `i + 1` of its parent, of which the edge is not split.
+  Child child_at_edge(Index f, std::uint8_t code, Index i) const
+  {
+    const auto& pattern = internal::Split_pattern::of(code);
+    std::size_t c = 0;
+    const auto has = [&](Index label) {
+      return std::find(pattern.child[c].begin(), pattern.child[c].end(), label) != pattern.child[c].end();
+    };
+    while (!(has(i) && has((i + 1) % 3))) ++c;
+    return child(f, pattern.child[c]);
+  }
+
+  static double quality(const Child& v)
+  {
+    return face_quality(v[0].metric, v[1].metric, v[2].metric, v[1].point - v[0].point, v[2].point - v[0].point);
   }
 
   static bool has_several_marks(std::uint8_t code) { return (code & (code - 1)) != 0; }
@@ -449,11 +491,7 @@ private:
   double worst_child(Index f, std::uint8_t code) const
   {
     double worst = 1;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Child v = child(f, internal::Split_pattern::of(code).child[c]);
-      worst = (std::min)(worst, face_quality(v[0].metric, v[1].metric, v[2].metric, v[1].point - v[0].point,
-                                             v[2].point - v[0].point));
-    }
+    for (std::size_t c = 0; c < 3; ++c) worst = (std::min)(worst, quality(child(f, internal::Split_pattern::of(code).child[c])));
     return worst;
   }
 
@@ -477,7 +515,7 @@ private:
   std::size_t expected_vertices_ = 0; // for all sweeps
   std::optional<Limit_of_refinement> limit_; // the same
   bool is_at_limit_ = false, is_waiting_ = false;
-  Buffer<std::uint8_t> codes_, taken_back_;
+  Buffer<std::uint8_t> codes_, taken_back_, blocked_;
   Buffer<Index> first_middle_; // of each face
   Buffer<Placed_vertex<Metric>> middles_;
   // the other half of a double buffer: swapped with the surface by `commit`
