@@ -121,7 +121,7 @@ inline po::options_description described_options(Options& o)
     ("output-attributes", po::value(&o.output_attributes)->value_name("FILE.sol"), "where to write these")
     ("tolerance", po::value(&o.tolerance)->value_name("EPS"),
      "keep the Hausdorff distance between input and output below EPS times the diagonal of the bounding box, and certify "
-     "it; if nothing else says how fine the mesh is to be, the curvature does such that this is likely")
+     "it; if nothing else says how fine the mesh is to be, few faces, with sizes from the curvature for that distance")
     ("no-self-intersections", po::bool_switch(&o.no_self_intersections),
      "no faces of the output meet where those of the input do not; sizes get finer where sheets are too near each other")
     ("no-intersection-count", po::bool_switch(&o.no_intersection_count),

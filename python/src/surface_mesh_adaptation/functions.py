@@ -252,7 +252,7 @@ def adapt(
         Derivatives of the normal along the surface; estimated by default.
     tolerance : float, optional
         Certifies that the Hausdorff distance between input and output is below this fraction of the diagonal of the
-        bounding box.
+        bounding box. Alone, sizes from the curvature follow from it.
     avoid_self_intersections : bool
         Whether no triangles of the result may meet where those of the input do not. Sizes get finer where sheets are too
         near each other for them; where the gap is too narrow for that, triangles of the input stay.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Points of the input that the faces of an adapted mesh cover: its vertices, the centroids of its faces, and some on edges
-// where it bends so much that a face between these points may cut the edge off. An operation that replaces faces keeps the distance from the input to the mesh if the points that the old ones cover are near the
-// new ones, to which they are handed on. However many operations there are, nothing adds up.
+// where it bends so much that a face between these points may cut the edge off. An operation that replaces faces keeps the
+// distance from the input to the mesh if the points that the old ones cover are near the new ones, to which they are handed
+// on. However many operations there are, nothing adds up.
 //
 // Each face has a list of its points, linked through them. Operations write the lists of the faces that they replace
 // alone.

@@ -5,7 +5,8 @@
 // A sweep marks edges, evaluates their midpoints on the surface, and cuts every face by the pattern of its marks, all
 // at once and without a conflict graph: a new vertex is written by the face that owns its edge, a new face by its
 // parent. A face of which a child would be inverted, or no smaller than itself, takes marks back, its longest edge last;
-// the midpoints of the others stay as they are.
+// the midpoints of the others stay as they are. Beside edges that must stay long, a face takes all back that would make a
+// needle.
 // The sweep also closes the holes that simplification left.
 //
 // Invariants: simplicial 2-manifold, features, boundary cycles. Work: O(n) a sweep; span: O(log n).
