@@ -111,7 +111,7 @@ public:
 private:
   static constexpr double share_of_shrinking = 0.03; // of the limit
   static constexpr double most_shrinking = 0.5;      // of the triangle
-  static constexpr std::size_t most_triangles = 48;
+  static constexpr std::size_t most_triangles = 512; // that a face of a far coarser mesh may lie over
   using Point = View_along_normal::Point;
   using Points = std::array<Point, 3>;
 

@@ -247,8 +247,10 @@ inline double distance_bound(const Triangle_tree& tree, const Triangle_points& t
 class Largest_distance
 {
 public:
+  /// `guess` is the place of a triangle near the first point.
   explicit Largest_distance(std::size_t guess = 0) : near_(guess) {}
 
+  /// Looks at the distance of `p` from the triangles of `tree`, the same in each call.
   void add(const Triangle_tree& tree, const Vector_3& p)
   {
     near_ = tree.towards(p, near_);
@@ -259,7 +261,7 @@ public:
   }
 
   std::size_t near_last() const { return near_; } ///< a triangle near the last point
-  double squared() const { return squared_; }
+  double squared() const { return squared_; } ///< the square of the largest distance so far
 
 private:
   double squared_ = 0;
