@@ -813,6 +813,20 @@ TEST(Tolerance, is_kept_where_long_edges_bend)
   }
 }
 
+TEST(Tolerance, lets_dense_meshes_become_far_coarser)
+{
+  for (const Soup& before : {shapes::square(120, 0.2), shapes::sphere(6), shapes::open_cylinder(200, 100, 2, 0.2)}) {
+    Mesh mesh = shapes::mesh<Mesh>(before);
+    const double relative = 0.005;
+    const double tolerance = relative * SMA::internal::diagonal_of_bounding_box(before.points);
+    const auto report = SMA::adapt_surface_mesh(mesh, SMA::Curvature_metric_field::for_tolerance(relative),
+                                                SMA::parameters::tolerance(tolerance));
+    EXPECT_LT(report.final.vertices, before.points.size() / 50);
+    EXPECT_GT(report.final.in_range, 0.9);
+    EXPECT_LE(report.certified_distance, tolerance);
+  }
+}
+
 TEST(Tolerance, is_kept_against_sizes_that_are_far_too_coarse)
 {
   const Soup sphere = shapes::sphere(3, 0.3), torus = shapes::torus(48, 24, 0.25), cylinder = shapes::capped_cylinder(32, 8, 2);
