@@ -813,6 +813,20 @@ TEST(Tolerance, is_kept_where_long_edges_bend)
   }
 }
 
+TEST(Tolerance, lets_coarse_meshes_become_finer)
+{
+  for (const int subdivisions : {0, 1})
+    for (const double relative : {0.002, 0.0005}) {
+      const Soup before = shapes::sphere(subdivisions);
+      Mesh mesh = shapes::mesh<Mesh>(before);
+      const double tolerance = relative * SMA::internal::diagonal_of_bounding_box(before.points);
+      const auto report = SMA::adapt_surface_mesh(mesh, SMA::Curvature_metric_field::for_tolerance(relative),
+                                                  SMA::parameters::tolerance(tolerance).detect_features(false));
+      EXPECT_LE(report.certified_distance, tolerance);
+      EXPECT_GT(report.final.in_range, 0.9);
+    }
+}
+
 TEST(Tolerance, lets_dense_meshes_become_far_coarser)
 {
   for (const Soup& before : {shapes::square(120, 0.2), shapes::sphere(6), shapes::open_cylinder(200, 100, 2, 0.2)}) {

@@ -46,7 +46,7 @@ struct PN_triangle_reconstruction
   static Surface_point evaluate(const Patch& p, double u, double v)
   {
     const Vector_3 &p0 = p.points[0], &p1 = p.points[1], &p2 = p.points[2];
-    const Edge_handles h0 = handles(p, 0), h1 = handles(p, 1), h2 = handles(p, 2);
+    const internal::Cubic_handles h0 = handles(p, 0), h1 = handles(p, 1), h2 = handles(p, 2);
     const Vector_3 b01 = p0 + h0.start, b10 = p1 + h0.end, b12 = p1 + h1.start, b21 = p2 + h1.end,
                    b20 = p2 + h2.start, b02 = p0 + h2.end;
     // the mean of the inner control points of the edges, plus half of what separates it from the mean of the corners
@@ -76,20 +76,17 @@ struct PN_triangle_reconstruction
   }
 
 private:
-  /// From the ends of an edge to the control points next to them.
-  struct Edge_handles
-  {
-    Vector_3 start, end;
-  };
-
-  static Edge_handles handles(const Patch& p, std::size_t edge)
+  static internal::Cubic_handles handles(const Patch& p, std::size_t edge)
   {
     const std::size_t i = edge, j = (edge + 1) % 3;
     const Vector_3 c = p.points[j] - p.points[i];
-    if (p.is_feature[edge]) return {curve_handle(c, p.tangents[edge][0]), -curve_handle(c, p.tangents[edge][1])};
-    if (p.is_straight[edge]) return {c / 3, c / -3};
+    if (p.is_feature[edge]) return {curve_handle(c, p.tangents[edge][0]), -curve_handle(c, p.tangents[edge][1]), false};
+    if (p.is_straight[edge]) return {c / 3, c / -3, true};
     const double length2 = c.squaredNorm();
-    return {tangential_part(c, p.normals[i], length2) / 3, tangential_part(c, p.normals[j], length2) / -3};
+    const internal::Cubic_handles h{tangential_part(c, p.normals[i], length2) / 3,
+                                    tangential_part(c, p.normals[j], length2) / -3, false};
+    const double share = p.largest_bulge_of_edge[edge] / internal::largest_bulge(h, c);
+    return share < 1 ? internal::lowered(h, c, share) : h;
   }
 
   static Vector_3 tangential_part(const Vector_3& c, const Vector_3& normal, double squared_length)

@@ -227,6 +227,44 @@ TEST(Gregory_patch, has_curves_over_its_edges_that_stay_near_these)
   EXPECT_LT(feature, SMA::largest_bulge_of_patches);
 }
 
+/// The largest distance between points of a patch and of its triangle.
+template <class Reconstruction>
+double largest_bulge(const Patch& p)
+{
+  double largest = 0;
+  for (int i = 0; i <= 12; ++i)
+    for (int j = 0; i + j <= 12; ++j) {
+      const Vector_3 flat = Flat_reconstruction::evaluate(p, i / 12.0, j / 12.0).position;
+      largest = (std::max)(largest, (Reconstruction::evaluate(p, i / 12.0, j / 12.0).position - flat).norm());
+    }
+  return largest;
+}
+
+TEST(Gregory_patch, leaves_its_triangle_by_no_more_than_it_may)
+{
+  Random random(18);
+  double most = 0, most_of_pn_triangles = 0;
+  for (int i = 0; i < 500; ++i) {
+    Patch p = random_patch(random);
+    p.is_feature = {};
+    const Gregory_patch_3 free(p);
+    const double limit = 0.01;
+    p.largest_bulge_of_edge = {limit, limit, limit};
+    p.largest_bulge = 4 * limit / 3;
+    most = (std::max)(most, largest_bulge<Gregory_reconstruction>(p) / limit);
+    most_of_pn_triangles = (std::max)(most_of_pn_triangles, largest_bulge<SMA::PN_triangle_reconstruction>(p) / limit);
+    const Gregory_patch_3 g(p);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (g.curve(k) == Curve::lowered) continue; // the others are as they were
+      for (std::size_t j = 0; j < 5; ++j) EXPECT_EQ(g.control_point(k, j), free.control_point(k, j));
+    }
+  }
+  EXPECT_GT(most, 1);
+  EXPECT_LT(most, 1.4);
+  EXPECT_GT(most_of_pn_triangles, 1);
+  EXPECT_LT(most_of_pn_triangles, 1.4);
+}
+
 TEST(Gregory_patch, keeps_an_edge_straight_where_the_normals_say_nothing)
 {
   Random random(12);

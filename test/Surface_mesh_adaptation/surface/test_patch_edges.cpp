@@ -37,6 +37,7 @@ Patch across(const Patch& p, std::size_t edge, Random& random)
     q.has_shape_operator[mine] = p.has_shape_operator[other];
   }
   q.points[3 - edge - end] = p.points[0] + p.points[1] - p.points[2] + 0.1 * random.vector();
+  q.largest_bulge_of_edge[edge] = p.largest_bulge_of_edge[0];
   q.is_feature[edge] = p.is_feature[0];
   q.tangents[edge] = {-p.tangents[0][1], -p.tangents[0][0]};
   if (p.is_feature[0]) // a normal for each side
@@ -47,10 +48,11 @@ Patch across(const Patch& p, std::size_t edge, Random& random)
 TEST(Gregory_patch, has_the_curve_of_its_neighbour_to_the_bit)
 {
   Random random(7);
-  std::size_t curves[3] = {};
+  std::size_t curves[4] = {};
   for (int i = 0; i < 1000; ++i) {
     Patch p = random_patch(random);
     if (i % 5 == 0) p.normals[i % 2] = random.vector().normalized();
+    if (i % 5 == 1) p.largest_bulge_of_edge[0] = 0.01;
     const std::size_t edge = random.below(3);
     const Gregory_patch_3 g(p), h(across(p, edge, random));
     for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(g.control_point(0, k), h.control_point(edge, 4 - k));

@@ -148,7 +148,22 @@ private:
   Feature_parameters features() const
   {
     Feature_parameters result = creases_->constrained(values_->features());
+    result.largest_bulge = largest_bulges();
     return guard_ ? guard_->constrained(std::move(result)) : result;
+  }
+
+  /// Of the patches at each vertex of the input: what is put farther away would be refused. Faces need room, too.
+  std::vector<double> largest_bulges() const
+  {
+    constexpr double share_of_gap = 0.19, share_of_tolerance = 0.4;
+    std::vector<double> result;
+    if (guard_) result = guard_->bounds_at_vertices(execution_);
+    if (result.empty() && !tolerance_) return result;
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double largest = tolerance_ ? share_of_tolerance * tolerance_->of_operations : infinity;
+    result.resize(imported_.points.size(), infinity);
+    for (double& x : result) x = (std::min)(share_of_gap * x, largest);
+    return result;
   }
 
   void warn()

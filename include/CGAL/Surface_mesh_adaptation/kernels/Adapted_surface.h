@@ -263,12 +263,11 @@ private:
   /// How far the mesh may be away from the input at `l`, without jumps from face to face.
   double largest_distance(const Location& l) const
   {
-    const double everywhere = tolerance ? tolerance->of_operations() : infinity;
-    if (bounds_.empty()) return everywhere;
+    if (bounds_.empty()) return infinity;
     const auto at = reference_->interpolation(l);
     double inverse = 0;
     for (std::size_t i = 0; i < 3; ++i) inverse += at.weights[i] / bounds_[at.vertices[i]];
-    return (std::min)(everywhere, 1 / inverse);
+    return 1 / inverse;
   }
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -26,8 +26,9 @@ namespace internal {
 class Curve_geometry
 {
 public:
-  Curve_geometry(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets)
-    : mesh_(mesh), points_(points), facets_(facets)
+  Curve_geometry(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Feature_parameters& parameters,
+                 const Facets& facets)
+    : mesh_(mesh), points_(points), parameters_(parameters), facets_(facets)
   {}
 
   /// Fills the tangents of `c`, and those at the ends of its edges. \pre `c` has its vertices
@@ -74,9 +75,19 @@ private:
     const bool is_of_plane = is_beside_plane(a) && is_beside_plane(b);
     if (facets_.are_decimated || is_side || !strokes.is_on_arc(i) || is_of_plane) return straight;
     const Vector_3 ta = tangent_in_planes(a, b, c.tangents[i]), tb = tangent_in_planes(a, b, c.tangents[i + 1]);
-    const Vector_3 off = bulge(feature_handles(e, ta, tb));
+    const Cubic_handles handles = feature_handles(e, ta, tb);
+    const Vector_3 off = bulge(handles);
     if (leaves_facet(a, off) || (b != no_index ? leaves_facet(b, off) : leaves_sideways(a, off))) return straight;
-    return {ta, tb};
+    const double share =
+      parameters_.largest_bulge_of_edge(c.vertices[i], c.vertices[i + 1]) / largest_bulge(handles, e);
+    if (!(share < 1)) return {ta, tb};
+    return {lowered(straight[0], ta, share), lowered(straight[1], tb, share)};
+  }
+
+  /// `tangent` with a share of its slope over the direction of the chord.
+  static Vector_3 lowered(const Vector_3& chord, const Vector_3& tangent, double share)
+  {
+    return (chord + share * (tangent / tangent.dot(chord) - chord)).normalized();
   }
 
   bool is_beside_plane(Index h) const { return h != no_index && facets_.is_plane(Mesh_view::face(h)); }
@@ -129,6 +140,7 @@ private:
 
   const Mesh_view& mesh_;
   const std::vector<Vector_3>& points_;
+  const Feature_parameters& parameters_;
   const Facets& facets_;
 };
 

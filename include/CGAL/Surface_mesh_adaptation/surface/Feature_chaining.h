@@ -211,7 +211,7 @@ private:
         features_.node_of_vertex[chain[i]] = {id, Index(i)};
     }
     c.vertices = std::move(chain);
-    Curve_geometry(mesh_, points_, features_.facets)(c);
+    Curve_geometry(mesh_, points_, parameters_, features_.facets)(c);
     features_.curves.push_back(std::move(c));
   }
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace CGAL {
@@ -84,6 +85,14 @@ struct Feature_parameters
   bool smooth_borders = false; ///< whether planes keep their outlines where something curved joins them smoothly
   std::vector<Edge_constraint> halfedge_constraint; ///< the same on both sides
   std::vector<std::uint8_t> vertex_is_constrained;  ///< vertices that are corners
+  std::vector<double> largest_bulge; ///< of curves over the edges that end at a vertex, about
+
+  /// The same over the edge between `v` and `w`; infinite if nothing is asked.
+  double largest_bulge_of_edge(Index v, Index w) const
+  {
+    if (largest_bulge.empty()) return std::numeric_limits<double>::infinity();
+    return (std::min)(largest_bulge[v], largest_bulge[w]);
+  }
 
   /// Asks `constraint`, besides what is asked already, of the edges with a halfedge for which `predicate(h)`. A map of a user
   /// may know an edge from one side only: that of a cell complex, kept in a `std::set`.

@@ -30,7 +30,8 @@ namespace Surface_mesh_adaptation {
 /// Where the corners say too little about the surface the patch falls back, and says so: an edge to its chord
 /// (`Curve::straight`) if a normal leaves the plane across the edge by more than 35 degrees or the normals are more
 /// than 120 degrees apart, the interior to that of a cubic triangle (`Interior::cubic`) if a normal is more than 30
-/// degrees off that of the facet, or if that is a sliver. The former follows from the ends of the edge, so that
+/// degrees off that of the facet, if that is a sliver, or if a curve leaves its edge by more than the patch allows and
+/// is brought so near (`Curve::lowered`). The former follows from the ends of the edge, so that
 /// neighbours still meet; the latter gives up the common tangent planes.
 ///
 /// For tangent planes common to all faces around a vertex on a feature curve its normals must be orthogonal to the
@@ -47,8 +48,9 @@ public:
     walton_meek   ///< mean of the conormals at the ends: third and second order. The curve has the least integral of
                   ///< its squared second derivative
   };
-  /// What the curve over an edge is: a cubic by the normals, one by the tangents of a feature, or the chord.
-  enum class Curve : std::uint8_t { smooth, feature, straight };
+  /// What the curve over an edge is: a cubic by the normals, that with a smaller bulge, one by the tangents of a
+  /// feature, or the chord.
+  enum class Curve : std::uint8_t { smooth, lowered, feature, straight };
   /// What the inside is: that of a Gregory patch, or of a cubic triangle.
   enum class Interior : std::uint8_t { gregory, cubic };
 
@@ -67,7 +69,7 @@ public:
     std::array<Handles, 3> handles;
     for (std::size_t i = 0; i < 3; ++i) handles[i] = boundary_curve(p, i, construction);
     for (std::size_t i = 0; i < 3; ++i) raise_degree(i, handles[i]);
-    interior_ = supports_gregory(p) ? Interior::gregory : Interior::cubic;
+    interior_ = supports_gregory(p) && !is_lowered() ? Interior::gregory : Interior::cubic;
     if (interior_ == Interior::cubic) {
       set_cubic_interior(handles);
       return;
@@ -128,8 +130,14 @@ private:
                         ? internal::walton_meek_handles(e, p.normals[i], p.normals[j])
                         : internal::smooth_handles(e, p.normals[i], p.normals[j]);
     curves_[i] = h.is_straight ? Curve::straight : p.is_feature[i] ? Curve::feature : Curve::smooth;
-    return h;
+    if (curves_[i] != Curve::smooth) return h;
+    const double share = p.largest_bulge_of_edge[i] / internal::largest_bulge(h, e);
+    if (!(share < 1)) return h;
+    curves_[i] = Curve::lowered;
+    return internal::lowered(h, e, share);
   }
+
+  bool is_lowered() const { return std::find(curves_.begin(), curves_.end(), Curve::lowered) != curves_.end(); }
 
   void raise_degree(std::size_t i, const Handles& h)
   {

@@ -39,6 +39,11 @@ struct Patch
   std::array<bool, 3> has_shape_operator{};         ///< whether the shape operator of the corner is known
   /// Where the inside leaves the triangle by more, it follows the edges alone.
   double largest_bulge = std::numeric_limits<double>::infinity();
+  /// Where the curve over an edge, no feature, leaves it by more, it is brought so near, and the inside follows the edges
+  /// alone.
+  std::array<double, 3> largest_bulge_of_edge{std::numeric_limits<double>::infinity(),
+                                              std::numeric_limits<double>::infinity(),
+                                              std::numeric_limits<double>::infinity()};
 };
 
 /// The same with the corners numbered from `first` on.
@@ -52,6 +57,7 @@ inline Patch renumbered(const Patch& p, std::size_t first)
     q.normals[i] = p.normals[j];
     q.is_feature[i] = p.is_feature[j];
     q.is_straight[i] = p.is_straight[j];
+    q.largest_bulge_of_edge[i] = p.largest_bulge_of_edge[j];
     if (q.is_feature[i]) q.tangents[i] = p.tangents[j];
     q.shape_operators[i] = p.shape_operators[j];
     q.has_shape_operator[i] = p.has_shape_operator[j];

@@ -66,6 +66,7 @@ public:
     : mesh(std::move(mesh_)), points(std::move(points_))
     , features(detect_features(execution, mesh, points, parameters))
     , normals(estimate_normals(execution, mesh, points))
+    , largest_bulge_(parameters.largest_bulge)
     , given_(std::move(given))
     , jets_(execution, normals.normals.size())
     , has_fallback_(new std::atomic<bool>[mesh.number_of_faces()])
@@ -111,7 +112,8 @@ public:
       p.has_shape_operator[i] = jet.has_shape_operator;
     }
     if (is_plane(f)) flatten(p, features.facets.at(f).normal);
-    if (!is_fitted(p) || features.facets.are_decimated) p.largest_bulge = largest_bulge();
+    if (!largest_bulge_.empty()) limit_bulge(p, f);
+    if (!is_fitted(p) || features.facets.are_decimated) p.largest_bulge = (std::min)(p.largest_bulge, largest_bulge());
     for (std::size_t i = 0; i < 3; ++i) {
       const bool bulges_too_far = this->bulges_too_far(Index(h + i), p, i);
       if (bulges_too_far) p.largest_bulge = 0; // for these normals say nothing of the inside either
@@ -304,6 +306,15 @@ private:
     });
   }
 
+  void limit_bulge(Patch& p, Index f) const
+  {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double edge = (std::min)(largest_bulge_[mesh.corner[3 * f + i]], largest_bulge_[mesh.corner[3 * f + (i + 1) % 3]]);
+      p.largest_bulge_of_edge[i] = edge;
+      p.largest_bulge = (std::min)(p.largest_bulge, 4 * edge / 3); // so an inside bulges over edges that do so
+    }
+  }
+
   static void flatten(Patch& p, const Vector_3& normal)
   {
     p.normals = {normal, normal, normal};
@@ -485,6 +496,7 @@ private:
     return last ? c.length() : 0;
   }
 
+  std::vector<double> largest_bulge_; // of curves over the edges that end at a vertex; empty: any
   internal::Given_jets given_;
   internal::Lazy_jets jets_;
   std::unique_ptr<std::atomic<bool>[]> has_fallback_; ///< of the faces whose patches were asked for
