@@ -2,9 +2,18 @@
 //
 // The reference surface: its normals, points and curvature, and walks over it.
 
+#include "real_meshes.h"
+#include "shape_meshes.h"
 #include "surface/references.h"
 
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
 #include <CGAL/Surface_mesh_adaptation/fields/curvature.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/bounding_box.h>
+#include <CGAL/Surface_mesh_adaptation/surface/surface_bulge.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_ratio_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/GarlandHeckbert_plane_policies.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <gtest/gtest.h>
 
@@ -318,6 +327,33 @@ TEST(Curvature, of_a_torus_is_right_on_average)
     sum += std::abs(largest - 1 / shapes::torus_small_radius) * shapes::torus_small_radius;
   }
   EXPECT_LT(sum / double(s.points.size()), 0.05);
+}
+
+// Patches
+
+/// A part of planes, cylinders and cones with a share of its edges, by quadric errors of planes.
+Soup decimated_part(double share)
+{
+  namespace Simplification = CGAL::Surface_mesh_simplification;
+  using Kernel = CGAL::Simple_cartesian<double>;
+  using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+  Mesh mesh = real_mesh<Mesh>("joint");
+  const Simplification::GarlandHeckbert_plane_policies<Mesh, Kernel> policies(mesh);
+  Simplification::edge_collapse(mesh, Simplification::Count_ratio_stop_predicate<Mesh>(share),
+                                CGAL::parameters::get_cost(policies.get_cost()).get_placement(policies.get_placement()));
+  mesh.collect_garbage();
+  return shapes::soup(mesh);
+}
+
+TEST(Patches, stay_near_decimated_parts_where_fits_do_not_agree_with_them)
+{
+  for (const double share : {0.1, 0.11, 0.12}) {
+    SCOPED_TRACE(share);
+    const Soup part = decimated_part(share);
+    const Surface r = reference(part);
+    EXPECT_FALSE(r.features.facets.empty());
+    EXPECT_LT(SMA::surface_bulge(sequential, r, 0.0), 0.007 * SMA::internal::diagonal_of_bounding_box(part.points));
+  }
 }
 
 } // namespace

@@ -15,6 +15,7 @@
 #include <CGAL/Surface_mesh_adaptation/metric/Size_bounds.h>
 #include <CGAL/Surface_mesh_adaptation/metric/metric_intersection.h>
 #include <CGAL/Surface_mesh_adaptation/metric_fields.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/bounding_box.h>
 
 #include <CGAL/number_utils.h>
 
@@ -34,16 +35,6 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 
 namespace internal {
-
-inline double diagonal_of_bounding_box(const std::vector<Vector_3>& points)
-{
-  Vector_3 low = points[0], high = points[0];
-  for (const Vector_3& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).norm();
-}
 
 /// The bounds that a user gave for a metric that is scaled to a number of vertices, or wide ones.
 inline Size_bounds bounds_of_scaled_metric(double hmin, double hmax, double diagonal)

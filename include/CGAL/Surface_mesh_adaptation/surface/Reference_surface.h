@@ -8,6 +8,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_REFERENCE_SURFACE_H
 
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/bounding_box.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Lazy_jets.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Patch_cache.h>
@@ -21,6 +22,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -67,6 +69,7 @@ public:
     , features(detect_features(execution, mesh, points, parameters))
     , normals(estimate_normals(execution, mesh, points))
     , largest_bulge_(parameters.largest_bulge)
+    , largest_doubtful_bulge_(features.facets.empty() ? infinity : doubtful_bulge())
     , given_(std::move(given))
     , jets_(execution, normals.normals.size())
     , has_fallback_(new std::atomic<bool>[mesh.number_of_faces()])
@@ -112,7 +115,7 @@ public:
       p.has_shape_operator[i] = jet.has_shape_operator;
     }
     if (is_plane(f)) flatten(p, features.facets.at(f).normal);
-    if (!largest_bulge_.empty()) limit_bulge(p, f);
+    limit_bulge(p, f);
     if (!is_fitted(p) || features.facets.are_decimated) p.largest_bulge = (std::min)(p.largest_bulge, largest_bulge());
     for (std::size_t i = 0; i < 3; ++i) {
       const bool bulges_too_far = this->bulges_too_far(Index(h + i), p, i);
@@ -309,10 +312,44 @@ private:
   void limit_bulge(Patch& p, Index f) const
   {
     for (std::size_t i = 0; i < 3; ++i) {
-      const double edge = (std::min)(largest_bulge_[mesh.corner[3 * f + i]], largest_bulge_[mesh.corner[3 * f + (i + 1) % 3]]);
-      p.largest_bulge_of_edge[i] = edge;
-      p.largest_bulge = (std::min)(p.largest_bulge, 4 * edge / 3); // so an inside bulges over edges that do so
+      double limit = is_doubtful(p, i) ? largest_doubtful_bulge_ : infinity;
+      for (const std::size_t k : {i, (i + 1) % 3})
+        if (!largest_bulge_.empty()) limit = (std::min)(limit, largest_bulge_[mesh.corner[3 * f + k]]);
+      p.largest_bulge_of_edge[i] = limit;
+      p.largest_bulge = (std::min)(p.largest_bulge, 4 * limit / 3); // so an inside bulges over edges that do so
     }
+  }
+
+  /// That of a curve in a part with facets where fits do not agree with it: by half more than that of the largest regular
+  /// chord, or a share of the part.
+  double doubtful_bulge() const
+  {
+    constexpr double share_of_diagonal = 0.005, share_of_sag = 1.5;
+    const double least = share_of_diagonal * internal::diagonal_of_bounding_box(points), sag = share_of_sag * features.facets.sag;
+    return std::isfinite(sag) ? (std::max)(least, sag) : least;
+  }
+
+  /// Whether the curve over edge `i` bulges by much, and the curvatures at its ends are not those of an arc that does so. Where
+  /// none is known, regular chords tell.
+  bool is_doubtful(const Patch& p, std::size_t i) const
+  {
+    constexpr double largest_ratio = 1.5;
+    const double bulge = largest_doubtful_bulge_ < infinity ? this->bulge(p, i) : 0;
+    if (bulge <= largest_doubtful_bulge_) return false;
+    const std::size_t j = (i + 1) % 3;
+    if (!p.has_shape_operator[i] && !p.has_shape_operator[j])
+      return features.facets.are_decimated || !std::isfinite(features.facets.sag);
+    const auto agrees = [&](std::size_t k) {
+      return !p.has_shape_operator[k] || internal::are_alike(bulge_of_fit(p, i, k), bulge, largest_ratio);
+    };
+    return !(agrees(i) && agrees(j));
+  }
+
+  /// How far the arc over edge `i` with the curvature that the fit at corner `k` has along it is off its middle.
+  static double bulge_of_fit(const Patch& p, std::size_t i, std::size_t k)
+  {
+    const Vector_3 e = p.points[(i + 1) % 3] - p.points[i];
+    return std::abs(e.dot(p.shape_operators[k] * e)) / 8;
   }
 
   static void flatten(Patch& p, const Vector_3& normal)
@@ -358,9 +395,7 @@ private:
     constexpr double largest_ratio = 1.2;
     const std::size_t j = (i + 1) % 3;
     if (p.has_shape_operator[i] == p.has_shape_operator[j]) return p.has_shape_operator[i];
-    const Vector_3 e = p.points[j] - p.points[i];
-    const double of_fit = std::abs(e.dot(p.shape_operators[p.has_shape_operator[i] ? i : j] * e)) / 8;
-    return internal::are_alike(of_fit, bulge, largest_ratio);
+    return internal::are_alike(bulge_of_fit(p, i, p.has_shape_operator[i] ? i : j), bulge, largest_ratio);
   }
 
   /// How far the curve that the normals say is off the middle of edge `i`.
@@ -414,6 +449,7 @@ private:
                    minimal_rotation(across.normalized(), normal));
   }
 
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr int max_crossings = 256; // a path this long means a metric far coarser than the reference
   static constexpr double largest_detour = 1.2; // of distances in a step: over a bend they may grow
   static constexpr int max_corrections = 4; // each one squares the error of a smooth surface
@@ -497,6 +533,7 @@ private:
   }
 
   std::vector<double> largest_bulge_; // of curves over the edges that end at a vertex; empty: any
+  double largest_doubtful_bulge_;     // where fits do not agree with it
   internal::Given_jets given_;
   internal::Lazy_jets jets_;
   std::unique_ptr<std::atomic<bool>[]> has_fallback_; ///< of the faces whose patches were asked for
