@@ -33,7 +33,7 @@ inline Cubic_handles straight_handles(const Vector_3& e)
 }
 
 /// How far the curve over `e` with the handles `h` gets from the points of `e` with the same parameters: at its middle or,
-/// where one handle says more than the other, a third of the way. Too small by 3 % at most.
+/// where one handle says more than the other, a third of the way. Too small by about a tenth at most.
 inline double largest_bulge(const Cubic_handles& h, const Vector_3& e)
 {
   const Vector_3 third = (1.0 / 3) * e;
