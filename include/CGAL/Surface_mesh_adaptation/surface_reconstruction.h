@@ -85,7 +85,7 @@ private:
     const double length2 = c.squaredNorm();
     const internal::Cubic_handles h{tangential_part(c, p.normals[i], length2) / 3,
                                     tangential_part(c, p.normals[j], length2) / -3, false};
-    const double share = p.largest_bulge_of_edge[edge] / internal::largest_bulge(h, c);
+    const double share = internal::share_within(p.largest_bulge_of_edge[edge], h, c);
     return share < 1 ? internal::lowered(h, c, share) : h;
   }
 

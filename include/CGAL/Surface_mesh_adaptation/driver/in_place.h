@@ -155,7 +155,8 @@ private:
   /// Of the patches at each vertex of the input: what is put farther away would be refused. Faces need room, too.
   std::vector<double> largest_bulges() const
   {
-    constexpr double share_of_gap = 0.19, share_of_tolerance = 0.4;
+    constexpr double share_of_gap = 0.19; // insides bulge by a third more: no point is to be drawn back by `near_input()` then
+    constexpr double share_of_tolerance = 0.4;
     std::vector<double> result;
     if (guard_) result = guard_->bounds_at_vertices(execution_);
     if (result.empty() && !tolerance_) return result;

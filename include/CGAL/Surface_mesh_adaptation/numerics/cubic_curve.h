@@ -41,6 +41,13 @@ inline double largest_bulge(const Cubic_handles& h, const Vector_3& e)
   return (std::max)(bulge(h).norm(), at_third);
 }
 
+/// By which factor that curve is to be brought nearer to `e` so that it leaves it by no more than `largest`; less than 1 only if
+/// it does.
+inline double share_within(double largest, const Cubic_handles& h, const Vector_3& e)
+{
+  return std::isfinite(largest) ? largest / largest_bulge(h, e) : 1;
+}
+
 /// That curve brought nearer to `e` by the factor `share`.
 inline Cubic_handles lowered(const Cubic_handles& h, const Vector_3& e, double share)
 {

@@ -79,7 +79,7 @@ private:
     const Vector_3 off = bulge(handles);
     if (leaves_facet(a, off) || (b != no_index ? leaves_facet(b, off) : leaves_sideways(a, off))) return straight;
     const double share =
-      parameters_.largest_bulge_of_edge(c.vertices[i], c.vertices[i + 1]) / largest_bulge(handles, e);
+      share_within(largest_bulge_of_edge(parameters_.largest_bulge, c.vertices[i], c.vertices[i + 1]), handles, e);
     if (!(share < 1)) return {ta, tb};
     return {lowered(straight[0], ta, share), lowered(straight[1], tb, share)};
   }

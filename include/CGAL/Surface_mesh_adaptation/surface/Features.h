@@ -87,13 +87,6 @@ struct Feature_parameters
   std::vector<std::uint8_t> vertex_is_constrained;  ///< vertices that are corners
   std::vector<double> largest_bulge; ///< of curves over the edges that end at a vertex, about
 
-  /// The same over the edge between `v` and `w`; infinite if nothing is asked.
-  double largest_bulge_of_edge(Index v, Index w) const
-  {
-    if (largest_bulge.empty()) return std::numeric_limits<double>::infinity();
-    return (std::min)(largest_bulge[v], largest_bulge[w]);
-  }
-
   /// Asks `constraint`, besides what is asked already, of the edges with a halfedge for which `predicate(h)`. A map of a user
   /// may know an edge from one side only: that of a cell complex, kept in a `std::set`.
   template <class Predicate>
@@ -108,6 +101,13 @@ struct Feature_parameters
     }
   }
 };
+
+/// `Feature_parameters::largest_bulge` over the edge between `v` and `w`; infinite if nothing is asked.
+inline double largest_bulge_of_edge(const std::vector<double>& largest_bulge, Index v, Index w)
+{
+  if (largest_bulge.empty()) return std::numeric_limits<double>::infinity();
+  return (std::min)(largest_bulge[v], largest_bulge[w]);
+}
 
 /// All features of a mesh.
 struct Features

@@ -131,7 +131,7 @@ private:
                         : internal::smooth_handles(e, p.normals[i], p.normals[j]);
     curves_[i] = h.is_straight ? Curve::straight : p.is_feature[i] ? Curve::feature : Curve::smooth;
     if (curves_[i] != Curve::smooth) return h;
-    const double share = p.largest_bulge_of_edge[i] / internal::largest_bulge(h, e);
+    const double share = internal::share_within(p.largest_bulge_of_edge[i], h, e);
     if (!(share < 1)) return h;
     curves_[i] = Curve::lowered;
     return internal::lowered(h, e, share);

@@ -312,9 +312,9 @@ private:
   void limit_bulge(Patch& p, Index f) const
   {
     for (std::size_t i = 0; i < 3; ++i) {
-      double limit = is_doubtful(p, i) ? largest_doubtful_bulge_ : infinity;
-      for (const std::size_t k : {i, (i + 1) % 3})
-        if (!largest_bulge_.empty()) limit = (std::min)(limit, largest_bulge_[mesh.corner[3 * f + k]]);
+      const Index h = 3 * f + Index(i);
+      const double asked = largest_bulge_of_edge(largest_bulge_, mesh.source(h), mesh.target(h));
+      const double limit = is_doubtful(p, i) ? (std::min)(asked, largest_doubtful_bulge_) : asked;
       p.largest_bulge_of_edge[i] = limit;
       p.largest_bulge = (std::min)(p.largest_bulge, 4 * limit / 3); // so an inside bulges over edges that do so
     }
