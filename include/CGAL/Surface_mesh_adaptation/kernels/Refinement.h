@@ -145,16 +145,24 @@ private:
   }
 
   template <class F>
-  void for_each_face(const F& f, std::size_t chunk_length = default_chunk_length) const
+  void for_each_face(const F& f) const
   {
     for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t i) {
       if (!mesh_.is_removed_face(Index(i))) f(Index(i));
-    }, chunk_length);
+    });
+  }
+
+  /// Of those that had marked edges at first: no other ever has.
+  template <class F>
+  void for_each_marked_face(const F& f, std::size_t chunk_length = default_chunk_length) const
+  {
+    for_each_index(execution_, marked_faces_.size(), [&](std::size_t i) { f(marked_faces_[i]); }, chunk_length);
   }
 
   void mark()
   {
     mark_long_edges();
+    marked_faces_ = pack(execution_, mesh_.number_of_faces(), [&](std::size_t f) { return codes_[f] != 0; });
     if (is_anisotropic<Metric> && thresholds_.weigh_neighbors) unmark_fitting_edges();
   }
 
@@ -178,9 +186,9 @@ private:
   /// Takes back the marks of edges that are too long but fit the metric better than what would replace them.
   void unmark_fitting_edges()
   {
-    for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
+    for_each_marked_face([&](Index f) {
       taken_back_[f] = 0;
-      for (Index h = 3 * Index(f); h < 3 * Index(f) + 3; ++h)
+      for (Index h = 3 * f; h < 3 * f + 3; ++h)
         if (is_marked(h) && mesh_.is_edge_owner(h) && is_better_than_its_parts(h))
           taken_back_[f] = std::uint8_t(taken_back_[f] | 1u << h % 3);
     }, heavy_chunk_length);
@@ -189,7 +197,7 @@ private:
 
   bool is_curve_marked() const
   {
-    return count_faces([&](Index f) {
+    return count_marked_faces([&](Index f) {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
         if (is_marked(h) && mesh_.is_feature(h)) return true;
       return false;
@@ -199,14 +207,14 @@ private:
   /// Takes back the marks of edges of needles but those on curves, if most faces to be split are needles; whether so.
   bool unmark_needles()
   {
-    for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
+    for_each_marked_face([&](Index f) {
       taken_back_[f] = 0;
-      if (codes_[f] == 0 || !is_needle(Index(f))) return;
+      if (codes_[f] == 0 || !is_needle(f)) return;
       for (Index i = 0; i < 3; ++i)
-        if (!mesh_.is_feature(3 * Index(f) + i)) taken_back_[f] = std::uint8_t(taken_back_[f] | (codes_[f] & 1u << i));
+        if (!mesh_.is_feature(3 * f + i)) taken_back_[f] = std::uint8_t(taken_back_[f] | (codes_[f] & 1u << i));
     });
-    const std::size_t needles = count_faces([&](Index f) { return taken_back_[f] != 0; });
-    const bool is_fan = 2 * needles > count_faces([&](Index f) { return codes_[f] != 0; });
+    const std::size_t needles = count_marked_faces([&](Index f) { return taken_back_[f] != 0; });
+    const bool is_fan = 2 * needles > count_marked_faces([&](Index f) { return codes_[f] != 0; });
     if (is_fan) take_back_marks();
     return is_fan;
   }
@@ -218,16 +226,17 @@ private:
   }
 
   template <class Predicate>
-  std::size_t count_faces(const Predicate& predicate) const
+  std::size_t count_marked_faces(const Predicate& predicate) const
   {
-    return count_if(execution_, mesh_.number_of_faces(), [&](std::size_t f) { return predicate(Index(f)); });
+    return count_if(execution_, marked_faces_.size(), [&](std::size_t i) { return predicate(marked_faces_[i]); });
   }
 
   /// Unmarks the edges that one of their faces has taken back, and notes those that are `for_shape`.
   void take_back_marks()
   {
-    for_each_face([&](Index f) {
+    for_each_marked_face([&](Index f) {
       for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        if (!is_marked(h)) continue;
         const std::uint8_t taken = taken_back(h) | (mesh_.is_border(h) ? 0 : taken_back(mesh_.twin[h]));
         if (taken != 0) codes_[f] = std::uint8_t(codes_[f] & ~(1u << h % 3));
         if ((taken & for_shape) != 0) blocked_[f] = std::uint8_t(blocked_[f] | 1u << h % 3);
@@ -256,9 +265,9 @@ private:
 
   std::size_t count_marked() const
   {
-    return reduce(execution_, mesh_.number_of_faces(), std::size_t(0), [&](std::size_t f) {
+    return reduce(execution_, marked_faces_.size(), std::size_t(0), [&](std::size_t i) {
       std::size_t n = 0;
-      for (Index h = 3 * Index(f); h < 3 * Index(f) + 3; ++h)
+      for (Index h = 3 * marked_faces_[i]; h < 3 * marked_faces_[i] + 3; ++h)
         if (is_marked(h) && mesh_.is_edge_owner(h)) ++n;
       return n;
     }, [](std::size_t a, std::size_t b) { return a + b; });
@@ -280,11 +289,13 @@ private:
   /// taken back.
   void place_middles()
   {
-    const Index n = exclusive_scan(execution_, mesh_.number_of_faces(), first_middle_, [&](std::size_t f) {
-      return codes_[f] != 0 ? owned_edges(3 * Index(f), 3 * Index(f) + 3) : 0;
+    const Index n = exclusive_scan(execution_, marked_faces_.size(), offsets_, [&](std::size_t i) {
+      return owned_edges(3 * marked_faces_[i], 3 * marked_faces_[i] + 3);
     });
     resize_and_forget(middles_, n);
-    for_each_face([&](Index f) {
+    resize_and_forget(first_middle_, mesh_.number_of_faces());
+    for_each_index(execution_, offsets_.size(), [&](std::size_t i) { first_middle_[marked_faces_[i]] = offsets_[i]; });
+    for_each_marked_face([&](Index f) {
       for (Index h = 3 * f; h < 3 * f + 3; ++h)
         if (is_marked(h) && mesh_.is_edge_owner(h) && !is_stopped(execution_))
           middles_[place_of_middle(h)] = edge_middle(surface_, h);
@@ -380,14 +391,13 @@ private:
   /// the edges around it long.
   bool take_back_marks_of_bad_faces()
   {
-    for_each_index(execution_, mesh_.number_of_faces(), [&](std::size_t i) {
-      const Index f = Index(i);
+    for_each_marked_face([&](Index f) {
       const std::uint8_t code = codes_[f];
       if (code != 0 && makes_needle_at_blocked_edge(f, code)) taken_back_[f] = std::uint8_t(code * (1 + for_shape));
       else if (code == 0 || (are_halves_shorter(f) && are_children_upright(f, code))) taken_back_[f] = 0;
       else taken_back_[f] = has_several_marks(code) ? all_but_longest(f) : code;
     });
-    const bool is_any = count_faces([&](Index f) { return taken_back_[f] != 0; }) > 0;
+    const bool is_any = count_marked_faces([&](Index f) { return taken_back_[f] != 0; }) > 0;
     if (is_any) take_back_marks();
     return is_any;
   }
@@ -441,8 +451,7 @@ private:
   /// Of the two ways to cut the quadrilateral that two marks leave, takes the one with the better worst face.
   void choose_diagonals()
   {
-    for_each_index(execution_, codes_.size(), [&](std::size_t i) {
-      const Index f = Index(i);
+    for_each_marked_face([&](Index f) {
       const std::uint8_t marks = codes_[f];
       if (marks != 3 && marks != 5 && marks != 6) return;
       const std::uint8_t other = std::uint8_t(marks | 8);
@@ -517,7 +526,8 @@ private:
   std::optional<Limit_of_refinement> limit_; // the same
   bool is_at_limit_ = false, is_waiting_ = false;
   Buffer<std::uint8_t> codes_, taken_back_, blocked_;
-  Buffer<Index> first_middle_; // of each face
+  std::vector<Index> marked_faces_; // of the last sweep, before marks were taken back
+  Buffer<Index> offsets_, first_middle_; // in `middles_`: of each of these, and by face
   Buffer<Placed_vertex<Metric>> middles_;
   // the other half of a double buffer: swapped with the surface by `commit`
   Mesh_view spare_;
