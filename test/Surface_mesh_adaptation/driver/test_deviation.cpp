@@ -4,6 +4,7 @@
 
 #include "analytic_surfaces.h"
 #include "brute_force_intersections.h"
+#include "decimated_meshes.h"
 #include "distances.h"
 #include "near_sheets.h"
 #include "policies.h"
@@ -444,6 +445,19 @@ TEST(Tolerance_of_curvature, holds_where_edges_bend_that_are_no_ridges)
     with_creases += has_late_creases(on_patches) + has_late_creases(on_triangles);
   }
   EXPECT_GE(with_creases, 5); // else this shows nothing
+}
+
+/// There edges become ridges before sizes are corrected, and patches do not leave them by much.
+TEST(Tolerance_of_curvature, keeps_near_decimated_parts)
+{
+  struct Part { std::string name; double share, largest; };
+  for (const Part& part : {Part{"couplingdown", 0.2, 0.0033}, Part{"joint", 0.3, 0.0095}, Part{"rotor_small", 0.3, 0.008}}) {
+    SCOPED_TRACE(part.name + " " + std::to_string(part.share));
+    const Mesh input = decimated_mesh<Mesh>(part.name, part.share);
+    Mesh mesh = input;
+    EXPECT_TRUE(has_late_creases(SMA::adapt_surface_mesh(sequential, mesh, SMA::Curvature_metric_field(0.001))));
+    EXPECT_LT(distances::Original(input).distance_to(mesh, 50000).largest, part.largest * diagonal(input));
+  }
 }
 
 /// Where the faces of the input are the surface, faces need not become small beside edges of the input: they follow these.

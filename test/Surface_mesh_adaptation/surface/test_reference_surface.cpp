@@ -2,7 +2,7 @@
 //
 // The reference surface: its normals, points and curvature, and walks over it.
 
-#include "real_meshes.h"
+#include "decimated_meshes.h"
 #include "shape_meshes.h"
 #include "surface/references.h"
 
@@ -11,10 +11,6 @@
 #include <CGAL/Surface_mesh_adaptation/fields/curvature.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/bounding_box.h>
 #include <CGAL/Surface_mesh_adaptation/surface/surface_bulge.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_ratio_stop_predicate.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
-#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
 
 #include <gtest/gtest.h>
 
@@ -333,26 +329,14 @@ TEST(Curvature, of_a_torus_is_right_on_average)
 
 // Patches
 
-/// A mesh of CGAL's data with a share of its edges: short ones vanish first.
-Soup decimated(const std::string& name, double share)
-{
-  namespace Simplification = CGAL::Surface_mesh_simplification;
-  using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
-  Mesh mesh = real_mesh<Mesh>(name);
-  Simplification::edge_collapse(mesh, Simplification::Count_ratio_stop_predicate<Mesh>(share),
-                                CGAL::parameters::get_cost(Simplification::Edge_length_cost<Mesh>())
-                                  .get_placement(Simplification::Midpoint_placement<Mesh>()));
-  mesh.collect_garbage();
-  return shapes::soup(mesh);
-}
-
 TEST(Patches, stay_near_decimated_parts_where_fits_do_not_agree_with_them)
 {
+  using Mesh = CGAL::Surface_mesh<CGAL::Simple_cartesian<double>::Point_3>;
   using Part = std::pair<std::string, double>;
   for (const auto& [name, share] : {Part("joint", 0.11), Part("joint", 0.12), Part("joint", 0.15), Part("couplingdown", 0.12),
                                     Part("couplingdown", 0.13), Part("couplingdown", 0.15)}) {
     SCOPED_TRACE(name + " " + std::to_string(share));
-    const Soup part = decimated(name, share);
+    const Soup part = shapes::soup(decimated_mesh<Mesh>(name, share));
     const SMA::Reference_surface<SMA::Gregory_reconstruction> r(sequential, shapes::view(part), part.points, {});
     EXPECT_FALSE(r.features.facets.empty());
     EXPECT_LT(SMA::surface_bulge(sequential, r, 0.0), 0.0055 * SMA::internal::diagonal_of_bounding_box(part.points));

@@ -188,7 +188,7 @@ private:
 
   bool has_creases_at_first(const Face_deviations<Surface>& deviations, double asked)
   {
-    if (may_have_creases(asked)) surface_.creases->mark_at_first(surface_, deviations, asked);
+    if (may_have_creases(asked)) surface_.creases->mark_at_first(execution_, surface_, deviations, asked);
     return is_in_vain();
   }
 

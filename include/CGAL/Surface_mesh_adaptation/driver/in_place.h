@@ -139,6 +139,7 @@ private:
   using Reference = Reference_surface<Reconstruction>;
   using Points = std::decay_t<decltype(point_map(std::declval<Domain&>().graph(), std::declval<const NamedParameters&>()))>;
   using Point = typename boost::property_traits<Points>::value_type;
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr bool may_avoid_intersections =
     has_parameter<NamedParameters, internal_np::avoid_self_intersections_t>;
   static constexpr bool may_count_intersections =
@@ -159,9 +160,9 @@ private:
     constexpr double share_of_tolerance = 0.4;
     std::vector<double> result;
     if (guard_) result = guard_->bounds_at_vertices(execution_);
-    if (result.empty() && !tolerance_) return result;
-    const double infinity = std::numeric_limits<double>::infinity();
-    const double largest = tolerance_ ? share_of_tolerance * tolerance_->of_operations : infinity;
+    const double within = tolerance_ ? share_of_tolerance * tolerance_->of_operations : infinity;
+    const double largest = (std::min)(within, largest_bulge_);
+    if (result.empty() && largest == infinity) return result;
     result.resize(imported_.points.size(), infinity);
     for (double& x : result) x = (std::min)(share_of_gap * x, largest);
     return result;
@@ -236,6 +237,7 @@ private:
     report_ = tolerance_ ? adapt_within(*tolerance_, attempt, [&](const auto& report) { return is_in_vain(report); }) : attempt();
     if (is_in_vain(report_)) {
       creases_->take_new();
+      if (creases_->is_coarse()) largest_bulge_ = (std::min)(largest_bulge_, reference.doubtful_bulge());
       return false;
     }
     const Effect_of_interruption once(execution_.interruption(), effect_after(report_));
@@ -324,6 +326,7 @@ private:
   Imported_mesh<typename Domain::Graph> imported_;
   std::optional<Carried_values<Domain, NamedParameters>> values_;
   Given_jets given_;
+  double largest_bulge_ = infinity; // of patches, once faces have shown that the input is too coarse for them
   std::optional<Tolerance> tolerance_;
   std::optional<Late_creases> creases_;
   std::optional<Self_intersection_guard> guard_;

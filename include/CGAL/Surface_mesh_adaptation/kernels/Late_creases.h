@@ -2,7 +2,8 @@
 //
 // Where the input bends sharply along an edge that is no ridge, since it turns by less or was taken for noise, faces cross
 // the edge, and no size brings them near enough, or very small ones only. Such edges become creases once a run has shown it,
-// and all is done again.
+// and all is done again. Where the triangles of the input are bad, as in tessellations and decimated parts, they do so before
+// sizes are corrected: most of what corrections would do there is in vain.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_KERNELS_LATE_CREASES_H
 #define CGAL_SURFACE_MESH_ADAPTATION_KERNELS_LATE_CREASES_H
@@ -10,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/distance/Triangle_tree.h>
 #include <CGAL/Surface_mesh_adaptation/distance/input_faces_near.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
 #include <CGAL/Surface_mesh_adaptation/surface/vertex_normals.h>
 
@@ -34,15 +36,19 @@ public:
     , cosine_(std::cos(share_of_angle * features.ridge_angle * CGAL_PI / 180)), is_first_(features.detect_ridges)
   {}
 
-  /// Before sizes are corrected for the first time, where the faces of the input are the surface: marks edges around faces
+  /// Before sizes are corrected for the first time. Where the faces of the input are the surface: marks edges around faces
   /// of `surface` that are not much nearer to it than `asked`, if they are as long as those of the face. Finer sizes there
-  /// would take several times the vertices.
+  /// would take several times the vertices. On patches, if the input is coarse: as `mark()` does.
   /// \par Complexity
   /// O(n) for the faces of the input around them
-  template <class Surface, class Deviations>
-  void mark_at_first(const Surface& surface, const Deviations& deviations, double asked)
+  template <class Execution, class Surface, class Deviations>
+  void mark_at_first(const Execution& execution, const Surface& surface, const Deviations& deviations, double asked)
   {
-    if (std::exchange(is_first_, false)) mark_long(surface, deviations, asked);
+    if (!std::exchange(is_first_, false)) return;
+    mark_long(surface, deviations, asked);
+    if (Surface::Reference::is_flat) return;
+    is_coarse_ = mean_quality_by_area(execution, mesh_, points_) <= quality_of_coarse;
+    if (is_coarse_) mark_around(surface, deviations, asked, share_of_length);
   }
 
   /// Where corrections of the sizes were in vain: marks edges around faces that are farther away than `asked`, too, but none
@@ -64,6 +70,9 @@ public:
 
   void take_new() { are_new_ = false; }
 
+  /// Whether patches are the surface and the triangles of the input are bad, as far as `mark_at_first()` has looked.
+  bool is_coarse() const { return is_coarse_; }
+
   std::size_t number() const { return number_; } ///< of those marked
 
   /// `features`, with all that were marked.
@@ -75,6 +84,7 @@ public:
 
 private:
   static constexpr int max_attempts = 3;
+  static constexpr double quality_of_coarse = 0.65; // mean by area, of which few scans and hardly any mesher has less
   static constexpr double distance_of_arc = 0.2; // of its middle from a chord of length 1, if it has 90 degrees
   static constexpr double share_of_angle = 1.0 / 3; // of that of ridges: below, finer sizes do
   static constexpr double share_of_asked = 0.7;     // of the distance
@@ -142,6 +152,7 @@ private:
   std::size_t number_ = 0;      // of edges that are
   bool are_new_ = false;
   bool is_first_; // time that faces are looked at
+  bool is_coarse_ = false;
 };
 
 } // namespace internal

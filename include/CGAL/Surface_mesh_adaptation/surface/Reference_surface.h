@@ -299,6 +299,15 @@ public:
     return {{mesh.corner[h], mesh.corner[h + 1], mesh.corner[h + 2]}, {1 - l.u - l.v, l.u, l.v}};
   }
 
+  /// That of a curve in a coarse part where nothing else speaks for it: by half more than that of the largest regular chord, or
+  /// a share of the part.
+  double doubtful_bulge() const
+  {
+    constexpr double share_of_diagonal = 0.005, share_of_sag = 1.5;
+    const double least = share_of_diagonal * internal::diagonal_of_bounding_box(points), sag = share_of_sag * features.facets.sag;
+    return std::isfinite(sag) ? (std::max)(least, sag) : least;
+  }
+
 private:
   using Cache = internal::Patch_cache<Reconstruction>;
 
@@ -318,15 +327,6 @@ private:
       p.largest_bulge_of_edge[i] = limit;
       p.largest_bulge = (std::min)(p.largest_bulge, 4 * limit / 3); // so an inside bulges over edges that do so
     }
-  }
-
-  /// That of a curve in a part with facets where fits do not agree with it: by half more than that of the largest regular
-  /// chord, or a share of the part.
-  double doubtful_bulge() const
-  {
-    constexpr double share_of_diagonal = 0.005, share_of_sag = 1.5;
-    const double least = share_of_diagonal * internal::diagonal_of_bounding_box(points), sag = share_of_sag * features.facets.sag;
-    return std::isfinite(sag) ? (std::max)(least, sag) : least;
   }
 
   /// Whether the curve over edge `i` bulges by much, and the curvatures at its ends are not those of an arc that does so. Where
