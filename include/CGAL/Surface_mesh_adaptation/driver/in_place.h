@@ -215,7 +215,7 @@ private:
   void make_tolerance()
   {
     const double distance = tolerance_of(np_);
-    if (distance == std::numeric_limits<double>::infinity()) return;
+    if (distance == infinity) return;
     tolerance_ = Tolerance{distance, share_of_operations * distance,
                            Triangle_tree(execution_, imported_.mesh, imported_.points)};
   }

@@ -40,7 +40,7 @@ public:
   /// of `surface` that are not much nearer to it than `asked`, if they are as long as those of the face. Finer sizes there
   /// would take several times the vertices. On patches, if the input is coarse: as `mark()` does.
   /// \par Complexity
-  /// O(n) for the faces of the input around them
+  /// O(n), on patches for all faces of the input, else for those around them
   template <class Execution, class Surface, class Deviations>
   void mark_at_first(const Execution& execution, const Surface& surface, const Deviations& deviations, double asked)
   {
