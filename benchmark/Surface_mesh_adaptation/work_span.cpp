@@ -30,7 +30,7 @@ using Steps = std::vector<SMA::Parallel_step>;
 double work_of(const Steps& steps)
 {
   double sum = 0;
-  for (const SMA::Parallel_step& s : steps) sum += s.work;
+  for (const SMA::Parallel_step& s : steps) sum += s.work();
   return sum;
 }
 
@@ -47,14 +47,14 @@ struct Kernel_profile
   double span() const
   {
     double sum = 0;
-    for (const auto& s : steps) sum += s.longest;
+    for (const auto& s : steps) sum += s.longest();
     return sum;
   }
 
   std::size_t tasks() const
   {
     std::size_t sum = 0;
-    for (const auto& s : steps) sum += s.tasks;
+    for (const auto& s : steps) sum += s.seconds.size();
     return sum;
   }
 
@@ -62,10 +62,8 @@ struct Kernel_profile
   void keep_shorter(const Kernel_profile& other)
   {
     serial = (std::min)(serial, other.serial);
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      steps[i].work = (std::min)(steps[i].work, other.steps[i].work);
-      steps[i].longest = (std::min)(steps[i].longest, other.steps[i].longest);
-    }
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      if (other.steps[i].work() < steps[i].work()) steps[i] = other.steps[i];
   }
 };
 
@@ -83,10 +81,11 @@ public:
 
   void take(const std::string& name)
   {
+    const double now = processor_seconds();
     const Steps steps(execution_.steps().begin() + std::ptrdiff_t(taken_), execution_.steps().end());
     Kernel_profile& k = profile[name];
     k.steps.insert(k.steps.end(), steps.begin(), steps.end());
-    k.serial += processor_seconds() - last_ - work_of(steps);
+    k.serial += now - last_ - work_of(steps);
     k.peak = (std::max)(k.peak, bench::memory("VmHWM"));
     bench::forget_peak_of_memory();
     taken_ = execution_.steps().size();

@@ -191,20 +191,36 @@ TEST(Profiled_execution, records_the_work_and_the_span_of_each_step)
   execution.run(1, work);
   ASSERT_EQ(execution.steps().size(), 2u);
   const SMA::Parallel_step &three = execution.steps()[0], &one = execution.steps()[1];
-  EXPECT_EQ(three.tasks, 3u);
-  EXPECT_EQ(one.tasks, 1u);
-  EXPECT_GT(three.longest, 0.5 * three.work);
-  EXPECT_LT(three.longest, three.work);
-  EXPECT_DOUBLE_EQ(one.longest, one.work);
+  EXPECT_EQ(three.seconds.size(), 3u);
+  EXPECT_EQ(one.seconds.size(), 1u);
+  EXPECT_GT(three.longest(), 0.5 * three.work());
+  EXPECT_LT(three.longest(), three.work());
+  EXPECT_DOUBLE_EQ(one.longest(), one.work());
 }
 
-TEST(Profiled_execution, predicts_by_the_bound_of_brent)
+TEST(Profiled_execution, predicts_what_threads_take_that_fetch_their_tasks)
 {
-  const SMA::Parallel_step step{5, 8, 2}, alone{1, 3, 3};
+  const SMA::Parallel_step step{{1, 2, 3, 1, 1}}, alone{{3}}; // on two threads 1 + 3 and 2 + 1 + 1
   EXPECT_DOUBLE_EQ(SMA::predicted_seconds(step, 1, 0.1), 8);
-  EXPECT_DOUBLE_EQ(SMA::predicted_seconds(step, 4, 0.1), 8.0 / 4 + 2 * 3.0 / 4 + 0.2);
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds(step, 2, 0.1), 4 + 0.1);
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds(step, 8, 0.1), 3 + 0.3);
   EXPECT_DOUBLE_EQ(SMA::predicted_seconds(alone, 4, 0.1), 3);
-  EXPECT_DOUBLE_EQ(SMA::predicted_seconds({step, alone}, 10, 4, 0.1), 10 + 3.7 + 3);
+  EXPECT_DOUBLE_EQ(SMA::predicted_seconds({step, alone}, 10, 4, 0.1), 10 + 3.2 + 3);
+}
+
+TEST(Profiled_execution, predicts_between_the_least_and_the_bound_of_graham)
+{
+  Random random(5);
+  for (int i = 0; i < 100; ++i) {
+    SMA::Parallel_step step;
+    for (std::size_t task = 2 + random.below(200); task > 0; --task) step.seconds.push_back(float(random.real()));
+    for (const int threads : {2, 3, 16, 64}) {
+      const double least = (std::max)(step.work() / threads, step.longest());
+      const double seconds = SMA::predicted_seconds(step, threads, 0);
+      EXPECT_GE(seconds, least * (1 - 1e-9));
+      EXPECT_LE(seconds, step.work() / threads + step.longest());
+    }
+  }
 }
 
 // Buffers

@@ -9,7 +9,11 @@
 #include <cmath>
 #include <cstddef>
 #include <ctime>
+#include <functional>
 #include <memory>
+#include <numeric>
+#include <queue>
+#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -18,9 +22,10 @@ namespace Surface_mesh_adaptation {
 /// One parallel step: tasks between two barriers.
 struct Parallel_step
 {
-  std::size_t tasks = 0;
-  double work = 0;     ///< processor seconds of all tasks together
-  double longest = 0;  ///< seconds of the longest task
+  std::vector<float> seconds; ///< of the processor, for each task
+
+  double work() const { return std::accumulate(seconds.begin(), seconds.end(), 0.0); }
+  double longest() const { return seconds.empty() ? 0 : *std::max_element(seconds.begin(), seconds.end()); }
 };
 
 /// Runs tasks one after the other and records how long they take, by `std::clock()`: in the time of the processor,
@@ -37,17 +42,15 @@ public:
   void run(std::size_t number_of_tasks, const Task& task) const
   {
     Parallel_step step;
-    step.tasks = number_of_tasks;
+    step.seconds.reserve(number_of_tasks);
     std::clock_t last = std::clock();
     for (std::size_t i = 0; i < number_of_tasks; ++i) {
       task(i);
       const std::clock_t now = std::clock();
-      const double seconds = double(now - last) / CLOCKS_PER_SEC;
-      step.work += seconds;
-      step.longest = (std::max)(step.longest, seconds);
+      step.seconds.push_back(float(now - last) / CLOCKS_PER_SEC);
       last = now;
     }
-    steps_->push_back(step);
+    steps_->push_back(std::move(step));
   }
 
   /// The steps so far, in order; shared by copies.
@@ -57,12 +60,22 @@ private:
   std::shared_ptr<std::vector<Parallel_step>> steps_ = std::make_shared<std::vector<Parallel_step>>();
 };
 
-/// Upper bound (Brent 1974) on the seconds that `step` takes on `threads` threads under any greedy schedule, plus a
-/// barrier of `barrier` seconds for each doubling of the threads.
+/// The seconds that `step` takes on `threads` threads, of which each takes the next task as soon as it is free, plus a
+/// barrier of `barrier` seconds for each doubling of the threads. At most work / threads + longest (Graham 1966).
+/// Complexity: tasks * log(threads).
 inline double predicted_seconds(const Parallel_step& step, int threads, double barrier)
 {
-  if (threads == 1 || step.tasks <= 1) return step.work;
-  return step.work / threads + step.longest * (1 - 1.0 / threads) + barrier * std::log2(double(threads));
+  if (threads == 1 || step.seconds.size() <= 1) return step.work();
+  std::priority_queue<double, std::vector<double>, std::greater<double>> free_at;
+  for (int i = 0; i < threads; ++i) free_at.push(0);
+  double end = 0;
+  for (const float seconds : step.seconds) {
+    const double done = free_at.top() + seconds;
+    end = (std::max)(end, done);
+    free_at.pop();
+    free_at.push(done);
+  }
+  return end + barrier * std::log2(double(threads));
 }
 
 /// The same for a run with `serial` seconds outside of its parallel steps.

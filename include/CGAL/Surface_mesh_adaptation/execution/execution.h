@@ -294,6 +294,7 @@ std::vector<T> gather(const Execution& execution, std::size_t n, std::size_t chu
   std::vector<T> result(offset.back());
   execution.run(lists.size(), [&](std::size_t i) {
     std::copy(lists[i].begin(), lists[i].end(), result.begin() + std::ptrdiff_t(offset[i]));
+    std::vector<T>().swap(lists[i]); // giving back thousands of lists in series would take its time
   });
   return result;
 }
