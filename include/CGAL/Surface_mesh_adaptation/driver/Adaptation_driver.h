@@ -102,13 +102,13 @@ private:
     return thresholds;
   }
 
-  /// Every vertex may have to move, and every edge to be split, but collapses and swaps need a short edge, a bad face or a curve: on a mesh that is
+  /// Every vertex may have to move, but collapses and swaps need a short edge, a bad face or a curve: on a mesh that is
   /// adapted already there are few. Such a mesh is not regularized either, which would change it all over.
   void find_work()
   {
     const Mesh_view& mesh = surface_.mesh;
-    const std::uint8_t everywhere = std::uint8_t(std::uint8_t(Activity::relocate) | std::uint8_t(Activity::refine) |
-                                                 (is_adapted_ ? 0 : std::uint8_t(Activity::regularize)));
+    const std::uint8_t everywhere =
+      std::uint8_t(std::uint8_t(Activity::relocate) | (is_adapted_ ? 0 : std::uint8_t(Activity::regularize)));
     fill(execution_, surface_.active, mesh.number_of_vertices(), everywhere);
     for_each_index(execution_, mesh.number_of_faces(), [&](std::size_t f) {
       if (mesh.is_removed_face(Index(f))) return;
@@ -274,14 +274,11 @@ private:
     return factors;
   }
 
-  /// Lets the kernels look at the vertices that are marked and those next to them, and at no others, but for long edges
-  /// that are left.
+  /// Lets the kernels look at the vertices that are marked and those next to them, and at no others.
   void work_where(const std::vector<std::uint8_t>& is_marked)
   {
     extent_ = count_if(execution_, is_marked.size(), [&](std::size_t v) { return is_marked[v] != 0; });
-    for_each_index(execution_, is_marked.size(), [&](std::size_t v) {
-      surface_.active[v] = std::uint8_t(surface_.active[v] & std::uint8_t(Activity::refine));
-    });
+    fill(execution_, surface_.active, is_marked.size(), std::uint8_t(0));
     for_each_index(execution_, is_marked.size(), [&](std::size_t v) {
       if (is_marked[v] == 0) return;
       activate(surface_, Index(v));
