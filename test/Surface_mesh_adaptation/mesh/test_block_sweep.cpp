@@ -58,19 +58,6 @@ std::vector<Index> random_vertices(const Mesh_view& m, double share, Random& ran
   return result;
 }
 
-TEST(Block_length, grows_with_the_mesh_so_that_small_ones_have_many_blocks)
-{
-  std::size_t last = SMA::block_length(0);
-  for (std::size_t n = 1; n < 10000000; n += 1 + n / 7) {
-    const std::size_t length = SMA::block_length(n);
-    EXPECT_GE(length, last);
-    EXPECT_LE(length, 1024u);
-    EXPECT_TRUE(n < 100000 || SMA::number_of_chunks(n, length) >= 256) << n;
-    last = length;
-  }
-  EXPECT_EQ(last, 1024u);
-}
-
 TEST(Border_of_blocks, colors_blocks_differently_if_an_edge_of_a_listed_vertex_joins_them)
 {
   Random random(12);
@@ -85,9 +72,9 @@ TEST(Border_of_blocks, colors_blocks_differently_if_an_edge_of_a_listed_vertex_j
         for (const Index b : classes[c]) color[b] = c;
       for (std::size_t b = 0; b < border.number_of_blocks(); ++b)
         for (std::size_t i = border.begin(b); i < border.end(b); ++i) {
-          ASSERT_EQ(vertices[i] / SMA::block_length(m.number_of_vertices()), b);
+          ASSERT_EQ(vertices[i] / SMA::block_length, b);
           m.for_each_neighbor(vertices[i], [&](Index w) {
-            const std::size_t other = w / SMA::block_length(m.number_of_vertices());
+            const std::size_t other = w / SMA::block_length;
             if (other == b) return;
             ++edges_between_blocks;
             ASSERT_NE(color[other], color[b]);
@@ -163,7 +150,7 @@ TEST(Sweep_blocks, visits_each_vertex_once_within_its_block)
 {
   for_each_policy([&](const auto& execution, const std::string& name) {
     SCOPED_TRACE(name);
-    const std::size_t n = 5 * SMA::block_length(0) + 3;
+    const std::size_t n = 5 * SMA::block_length + 3;
     std::vector<int> visits(n, 0);
     SMA::Sweep_counts counts;
     const std::vector<Index> deferred = SMA::sweep_blocks(

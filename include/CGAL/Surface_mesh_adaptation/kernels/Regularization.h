@@ -91,7 +91,7 @@ private:
 
   std::vector<Operation> propose()
   {
-    return gather<Operation>(execution_, mesh_.number_of_vertices(), block_length(mesh_.number_of_vertices()),
+    return gather<Operation>(execution_, mesh_.number_of_vertices(), block_length,
                              [&](std::size_t begin, std::size_t end, std::vector<Operation>& list) {
       if (is_stopped(execution_)) return;
       for (std::size_t v = begin; v < end; ++v) {
@@ -394,7 +394,7 @@ private:
     return true;
   }
 
-  static constexpr std::size_t range_of_holes = 4096; // shorter ones lack holes where others have too many
+  static constexpr std::size_t range_of_holes = 4 * block_length; // shorter ones lack holes where others have too many
   static constexpr double precision = 0.1; // of a location, of the way there: later moves undo the rest
 
   const Execution& execution_;

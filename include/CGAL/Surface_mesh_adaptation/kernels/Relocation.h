@@ -68,7 +68,7 @@ public:
       },
       [&](auto& attempt) {
         const auto moved = surface_.place(surface_.locations[attempt.vertex]);
-        return attempt.is_acceptable(moved) && attempt.apply(moved);
+        return attempt.is_harmless(moved) && attempt.apply(moved);
       },
       counts);
   }

@@ -70,6 +70,15 @@ public:
            is_upright(before, after, moved);
   }
 
+  /// Whether `moved`, which is due whatever the faces gain, leaves these about as good as they are.
+  bool is_harmless(const Placed_vertex<Metric>& moved)
+  {
+    if (is_good(moved)) return true;
+    const Star_shape after = star.shape(moved), before = star.shape(start());
+    return after.worst >= (std::min)(harmless_loss * before.worst, thresholds_.good_quality) &&
+           is_upright(before, after, moved);
+  }
+
   /// Whether no face is turned farther from the surface than the limits or than it was.
   bool is_aligned(const Star_shape& before, const Star_shape& after) const
   {
@@ -96,6 +105,7 @@ public:
 
 private:
   static constexpr double min_improvement = 1.0 + 1e-4;
+  static constexpr double harmless_loss = 0.9; // what is left of the worst quality
 
   /// Whether all faces around the smooth vertex have the quality `good_quality` and are so flat that they can be no
   /// part of a fold: a test without roots and quotients, which nearly all moves pass.

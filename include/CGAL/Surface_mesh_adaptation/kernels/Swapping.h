@@ -141,10 +141,10 @@ private:
            block.contains(mesh_.apex(mesh_.twin[h]));
   }
 
-  Block block_of(Index v) const
+  static Block block_of(Index v)
   {
-    const Index length = Index(block_length(mesh_.number_of_vertices())), begin = v - v % length;
-    return {begin, begin + length};
+    const Index begin = v - v % Index(block_length);
+    return {begin, begin + Index(block_length)};
   }
 
   /// One pass of claims over the deferred edges of `vertices`, which keeps those that still have some.
@@ -152,12 +152,10 @@ private:
   {
     const std::vector<Index> edges = gather<Index>(execution_, vertices.size(), claim_chunk_length,
                                                    [&](std::size_t begin, std::size_t end, std::vector<Index>& list) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const Block block = block_of(vertices[i]);
+      for (std::size_t i = begin; i < end; ++i)
         mesh_.for_each_outgoing(vertices[i], [&](Index h) {
-          if (is_candidate(vertices[i], h) && !lies_in(block, h)) list.push_back(h);
+          if (is_candidate(vertices[i], h) && !lies_in(block_of(vertices[i]), h)) list.push_back(h);
         });
-      }
     });
     counts.candidates += edges.size();
     gains_.resize(edges.size());

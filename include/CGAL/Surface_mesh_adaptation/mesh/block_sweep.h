@@ -5,7 +5,7 @@
 // operation of another: blocks are worked through in parallel, each in the order of its ids and at the speed of
 // sequential code. What straddles a block border is deferred and then made independent by claims, or block by block
 // with blocks of one colour at a time.
-// The blocks depend on the ids and their number alone, never on the number of threads.
+// The blocks depend on the ids alone, never on the number of threads.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_MESH_BLOCK_SWEEP_H
 #define CGAL_SURFACE_MESH_ADAPTATION_MESH_BLOCK_SWEEP_H
@@ -21,16 +21,8 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// Vertices in a block of a mesh. 1024: its data fit a second-level cache, and about 15 % of its operations touch another
-/// block. Small meshes have shorter ones, so that there is work for many threads where blocks of one colour take turns;
-/// below 256 more is deferred than that wins.
-inline std::size_t block_length(std::size_t number_of_vertices)
-{
-  constexpr std::size_t shortest = 256, longest = 1024, enough_blocks = 512;
-  std::size_t length = shortest;
-  while (length < longest && number_of_vertices > enough_blocks * length) length *= 2;
-  return length;
-}
+/// Vertices in a block: its data fit a second-level cache, and about 15 % of its operations touch another block.
+constexpr std::size_t block_length = 1024;
 
 struct Block
 {
@@ -74,15 +66,14 @@ template <class Execution, class Visit>
 std::vector<Index> sweep_blocks(const Execution& execution, std::size_t number_of_vertices, Sweep_counts& counts,
                                 const Visit& visit)
 {
-  const std::size_t length = block_length(number_of_vertices);
-  std::vector<Sweep_counts> partial(number_of_chunks(number_of_vertices, length));
-  std::vector<Index> deferred = gather<Index>(execution, number_of_vertices, length,
+  std::vector<Sweep_counts> partial(number_of_chunks(number_of_vertices, block_length));
+  std::vector<Index> deferred = gather<Index>(execution, number_of_vertices, block_length,
                                               [&](std::size_t begin, std::size_t end, std::vector<Index>& list) {
     if (is_stopped(execution)) return;
     const Block block{Index(begin), Index(end)};
     Sweep_counts local; // of this task: counters in shared lines would cost more than the work
     for (std::size_t v = begin; v < end; ++v) visit(Index(v), block, local, list);
-    partial[begin / length] = local;
+    partial[begin / block_length] = local;
   });
   for (const Sweep_counts& p : partial) counts += p;
   counts.deferred += deferred.size();
@@ -92,12 +83,12 @@ std::vector<Index> sweep_blocks(const Execution& execution, std::size_t number_o
 /// A block and those next to it.
 struct Block_neighborhood
 {
-  Index block, length;
+  Index block;
   const Ring<Index>& adjacent;
 
   bool contains(Index v) const
   {
-    const Index b = v / length;
+    const Index b = Index(v / block_length);
     return b == block || std::find(adjacent.begin(), adjacent.end(), b) != adjacent.end();
   }
 };
@@ -110,11 +101,10 @@ public:
   /// Blocks of one colour are not adjacent, and if `distance` is 2 instead of 1, not adjacent to a common one either.
   template <class Execution>
   Border_of_blocks(const Execution& execution, const Mesh_view& mesh, const std::vector<Index>& vertices, int distance)
-    : length_(Index(block_length(mesh.number_of_vertices()))),
-      first_(number_of_chunks(mesh.number_of_vertices(), length_) + 1), adjacent_(first_.size() - 1)
+    : first_(number_of_chunks(mesh.number_of_vertices(), block_length) + 1), adjacent_(first_.size() - 1)
   {
     for_each_index(execution, first_.size(), [&](std::size_t b) {
-      const auto found = std::lower_bound(vertices.begin(), vertices.end(), Index(b * length_));
+      const auto found = std::lower_bound(vertices.begin(), vertices.end(), Index(b * block_length));
       first_[b] = std::size_t(found - vertices.begin());
     });
     const auto add = [&](std::size_t b, std::size_t other) {
@@ -123,7 +113,7 @@ public:
     };
     for_each_index(execution, adjacent_.size(), [&](std::size_t b) {
       for (std::size_t i = first_[b]; i < first_[b + 1]; ++i)
-        mesh.for_each_neighbor(vertices[i], [&](Index w) { add(b, w / length_); });
+        mesh.for_each_neighbor(vertices[i], [&](Index w) { add(b, w / block_length); });
     }, 1);
     for (std::size_t b = 0; b < adjacent_.size(); ++b)
       for (std::size_t i = 0; i < adjacent_[b].size(); ++i) add(adjacent_[b][i], b);
@@ -145,14 +135,13 @@ public:
   /// Whether no task visits `w` while another one works through `block`.
   bool stands_still(Index w, std::size_t block) const
   {
-    const std::size_t other = w / length_;
+    const std::size_t other = w / block_length;
     return other == block || coloring_.color[other] != coloring_.color[block];
   }
 
-  Block_neighborhood neighborhood(std::size_t block) const { return {Index(block), length_, adjacent_[block]}; }
+  Block_neighborhood neighborhood(std::size_t block) const { return {Index(block), adjacent_[block]}; }
 
 private:
-  Index length_; // of a block
   std::vector<std::size_t> first_; // of each block, and the end
   std::vector<Ring<Index>> adjacent_;
   Graph_coloring coloring_;
