@@ -7,6 +7,8 @@
 #include "policies.h"
 #include "tessellations.h"
 
+#include <CGAL/Surface_mesh_adaptation/swap.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -165,6 +167,32 @@ Soup bar_with_fans(Random& random, std::size_t n, double length)
   return soup;
 }
 
+/// Splits the vertex `v` in two that are off each other by `d`, with an edge and two needles between. Returns the other one.
+Surface_mesh::Vertex_index split_vertex(Random& random, Surface_mesh& mesh, Surface_mesh::Vertex_index v, const Vector_3& d)
+{
+  std::vector<Surface_mesh::Halfedge_index> arriving;
+  for (const auto h : CGAL::halfedges_around_target(mesh.halfedge(v), mesh)) arriving.push_back(h);
+  const std::size_t n = arriving.size(), first = random.below(n), second = (first + 1 + random.below(n - 1)) % n;
+  const auto between = CGAL::Euler::split_vertex(arriving[first], arriving[second], mesh);
+  for (const auto h : {between, mesh.opposite(between)}) // in a face with four edges
+    CGAL::Euler::split_face(mesh.prev(h), mesh.next(h), mesh);
+  const auto other = mesh.source(between) == v ? mesh.target(between) : mesh.source(between);
+  const auto& p = mesh.point(v);
+  mesh.point(other) = {p.x() + d[0], p.y() + d[1], p.z() + d[2]};
+  return other;
+}
+
+/// The same at up to `n` vertices, by up to `noise`.
+Surface_mesh with_needles(Random& random, const Soup& soup, std::size_t n, double noise)
+{
+  auto mesh = shapes::mesh<Surface_mesh>(soup);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Surface_mesh::Vertex_index v(Surface_mesh::size_type(random.below(soup.points.size())));
+    if (!mesh.is_border(v)) split_vertex(random, mesh, v, noise * random.vector());
+  }
+  return mesh;
+}
+
 struct Extremes
 {
   double least_height = 1e300, longest_edge = 0;
@@ -247,6 +275,79 @@ TEST(Caps, that_are_too_high_to_vanish_do_not_keep_the_edges_around_them_long)
   }
 }
 
+TEST(Needles, vanish)
+{
+  Random random(7);
+  for (const std::size_t n : {3, 4, 7})
+    for (const double noise : {0.0, 1e-12, 1e-9, 1e-6})
+      for (int i = 0; i < 5; ++i) {
+        SCOPED_TRACE(std::to_string(n) + " sides, noise " + std::to_string(noise) + ", " + std::to_string(i));
+        const Soup soup = prism(random, n, 2, 0);
+        auto mesh = with_needles(random, soup, 1 + random.below(20), noise);
+        SMA::adapt_surface_mesh(sequential, mesh, SMA::Uniform_metric_field(0.2));
+        expect_no_cap(shapes::soup(mesh), 0.2, 0.05);
+      }
+}
+
+TEST(Needles, keep_what_is_constrained)
+{
+  Random random(8);
+  for (int i = 0; i < 10; ++i) {
+    SCOPED_TRACE(i);
+    auto mesh = shapes::mesh<Surface_mesh>(prism(random, 4, 2, 0));
+    auto is_constrained = mesh.add_property_map<Surface_mesh::Vertex_index, bool>("v:is_constrained", false).first;
+    const Surface_mesh::Vertex_index v(Surface_mesh::size_type(random.below(mesh.number_of_vertices())));
+    const auto other = split_vertex(random, mesh, v, 1e-9 * random.vector());
+    const std::array points{mesh.point(v), mesh.point(other)};
+    is_constrained[v] = is_constrained[other] = true;
+    SMA::adapt_surface_mesh(sequential, mesh, SMA::Uniform_metric_field(0.2),
+                            CGAL::parameters::vertex_is_constrained_map(is_constrained));
+    for (const auto& p : points) {
+      const auto is_there = [&](auto w) { return is_constrained[w] && mesh.point(w) == p; };
+      EXPECT_EQ(std::count_if(mesh.vertices().begin(), mesh.vertices().end(), is_there), 1);
+    }
+  }
+}
+
+TEST(Needles, count_for_what_a_tolerance_certifies)
+{
+  Random random(9);
+  const Soup soup = prism(random, 7, 2, 0);
+  auto mesh = with_needles(random, soup, 20, 1e-6);
+  const auto before = mesh;
+  const auto report = SMA::adapt_surface_mesh(sequential, mesh, SMA::Uniform_metric_field(0.2),
+                                              SMA::parameters::tolerance(1e-3));
+  const SMA::Triangle_tree input(sequential, SMA::read_face_graph(sequential, before, before.points()).mesh,
+                                 SMA::read_face_graph(sequential, before, before.points()).points),
+    output(sequential, SMA::read_face_graph(sequential, mesh, mesh.points()).mesh,
+           SMA::read_face_graph(sequential, mesh, mesh.points()).points);
+  EXPECT_LE(SMA::hausdorff_distance_bound(sequential, input, output, {1e-8, 1}), report.certified_distance + 1e-8);
+  EXPECT_LE(report.certified_distance, 1e-3);
+}
+
+std::size_t number_of_degenerate_faces(const Soup& soup)
+{
+  return std::size_t(std::count_if(soup.triangles.begin(), soup.triangles.end(), [&](const shapes::Triangle& t) {
+    const Vector_3 &a = soup.points[t[0]], &b = soup.points[t[1]], &c = soup.points[t[2]];
+    const double longest = (std::max)({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    return height(a, b, c) < 5e-4 * longest;
+  }));
+}
+
+TEST(Caps, that_are_not_negligible_are_swapped_in_folds)
+{
+  Random random(10);
+  std::size_t before = 0, after = 0;
+  for (int i = 0; i < 50; ++i) {
+    const Soup soup = hinge(random, 2.7, 1e-4);
+    auto mesh = shapes::mesh<Surface_mesh>(soup);
+    SMA::swap(sequential, mesh, SMA::Uniform_metric_field(1.0), SMA::parameters::feature_angle(180));
+    before += number_of_degenerate_faces(soup);
+    after += number_of_degenerate_faces(shapes::soup(mesh));
+  }
+  EXPECT_LE(after, before / 3);
+}
+
 TEST(Fans, are_removed_and_not_split)
 {
   Random random(6);
@@ -301,7 +402,7 @@ TEST(Caps, give_their_place_to_the_values_of_the_faces_beside_them)
 TEST(Caps, vanish_alike_by_all_policies)
 {
   Random random(4);
-  const Soup soup = prism(random, 7, 2, 1e-7), expected = adapted(soup, 0.05);
+  const Soup soup = shapes::soup(with_needles(random, prism(random, 7, 2, 1e-7), 20, 1e-7)), expected = adapted(soup, 0.05);
   for_each_policy([&](const auto& execution, const std::string& name) {
     EXPECT_TRUE(checks::is_identical(expected, adapted(soup, 0.05, execution))) << name;
   });

@@ -46,13 +46,12 @@ public:
 
   const Feature_parameters& features() const { return features_; }
 
-  /// Swaps the caps of `imported`, see `surface/swap_caps.h`. Those of a part stay, for others may be beside them.
+  /// Swaps the caps of `imported`, see `surface/swap_caps.h`.
   template <class Execution>
-  void swap_caps(const Execution& execution, Imported_mesh<Graph>& imported)
+  void swap_caps(const Execution& execution, Imported_mesh<Graph>& imported, double most)
   {
-    if (Domain::is_part) return;
     swapped_ =
-      Surface_mesh_adaptation::swap_caps(execution, imported.mesh, imported.points, features_.halfedge_constraint);
+      Surface_mesh_adaptation::swap_caps(execution, imported.mesh, imported.points, features_.halfedge_constraint, most);
   }
 
   /// Whether face `f` of the result takes the place of faces of the domain.

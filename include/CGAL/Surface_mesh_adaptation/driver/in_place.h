@@ -21,6 +21,7 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 #include <CGAL/Surface_mesh_adaptation/parameters.h>
+#include <CGAL/Surface_mesh_adaptation/surface/collapse_needles.h>
 
 #include <algorithm>
 #include <chrono>
@@ -60,7 +61,7 @@ double tolerance_of(const NamedParameters& np)
   return distance;
 }
 
-/// An upper bound of the distance between the input and the adapted mesh; a coarse one where that leaves the tolerance.
+/// An upper bound of the distance between what is adapted and the adapted mesh; a coarse one where that leaves the tolerance.
 template <class Surface>
 double certified_distance(const Any_execution& execution, const Tolerance& tolerance, const Surface& surface)
 {
@@ -187,18 +188,35 @@ private:
     const Renumbering numbers = improve_locality(execution_, imported_);
     domain_.check_fans(execution_, imported_, numbers);
     values_.emplace(domain_, imported_, np_);
-    with_input_numbers(domain_.graph(), imported_, [&] { given_ = given_jets(imported_, np_); });
-    make_tolerance();
     surroundings_ =
       domain_.surroundings(points_, [this](const Mesh_view& mesh, Index f) { return values_->is_inside(mesh, f); });
     if constexpr (may_count_intersections) {
       intersections_.are_counted = choose(np_, internal_np::count_self_intersections, false);
       if (intersections_.are_counted) intersections_.before = count_intersections(imported_);
     }
+    if (may_mend()) collapse_needles();
+    with_input_numbers(domain_.graph(), imported_, [&] { given_ = given_jets(imported_, np_); });
+    make_tolerance();
     bounds_ = vertex_size_bounds(domain_.graph(), imported_, np_);
     deviations_ = face_deviations(domain_.graph(), imported_, np_);
-    if (!avoids_intersections()) values_->swap_caps(execution_, imported_); // it may make faces meet
+    if (may_mend()) values_->swap_caps(execution_, imported_, largest_negligible());
   }
+
+  /// Not where that may make faces meet, nor in a part, beside which others may be that match.
+  bool may_mend() const { return !avoids_intersections() && !Domain::is_part; }
+
+  void collapse_needles()
+  {
+    const Collapsed_needles needles = Surface_mesh_adaptation::collapse_needles(
+      execution_, imported_.mesh, imported_.points, values_->features(), largest_negligible());
+    if (needles.number == 0) return;
+    moved_ = needles.moved;
+    remove_holes(execution_, imported_);
+    values_.emplace(domain_, imported_, np_);
+  }
+
+  /// Length of what may be mended: little of the tolerance.
+  double largest_negligible() const { return 0.01 * tolerance_of(np_); }
 
   bool avoids_intersections() const { return choose(np_, internal_np::avoid_self_intersections, false); }
 
@@ -278,7 +296,7 @@ private:
     if (guard_ || intersections_.are_counted) round_to_points<Point>(execution_, surface);
     if (!tolerance_ || is_in_vain(result)) return result;
     result.tolerance = tolerance_->distance;
-    result.certified_distance = certified_distance(execution_, *tolerance_, surface);
+    result.certified_distance = moved_ + certified_distance(execution_, *tolerance_, surface);
     return result;
   }
 
@@ -331,6 +349,7 @@ private:
   std::optional<Late_creases> creases_;
   std::optional<Self_intersection_guard> guard_;
   Surroundings surroundings_;
+  double moved_ = 0; // how far what is adapted is from the input, at most
   Vertex_size_bounds bounds_;
   std::vector<double> deviations_; // that each face of the input asks for
   Self_intersection_counts intersections_;

@@ -102,6 +102,8 @@ private:
   static constexpr double max_quality_loss = 0.7;
   static constexpr double min_turn = 0.5;
   static constexpr double degenerate_quality = 1e-5; // below, one face is as bad as another
+  static constexpr double height_of_cap = 5e-4; // in lengths of the edge below
+  static constexpr double alignment_behind_cap = 0.97; // 14 degrees
   static constexpr double min_length_beside_curves = 4; // of edges for which that of faces between curves counts:
   static constexpr double alignment_beside_curves = 0.97; // 14 degrees
   static constexpr double max_share = 0.99; // of the length of an edge between such faces
@@ -200,11 +202,13 @@ private:
   {
     const Index t = mesh_.twin[h];
     const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
+    const Vector_3 old1 = surface_.normal(p, q, b), old2 = surface_.normal(q, p, a);
+    const Vector_3 new1 = surface_.normal(a, b, p), new2 = surface_.normal(b, a, q);
+    if (is_cut_by_cap(h, old2, new1, new2) || is_cut_by_cap(t, old1, new1, new2))
+      return !surface_.tolerance || keeps_tolerance(h);
     const double length = surface_.length(a, b);
     if (length > (std::max)(thresholds_.max_length, surface_.length(p, q)) && length > length_beside_degenerate_face(h))
       return false;
-    const Vector_3 old1 = surface_.normal(p, q, b), old2 = surface_.normal(q, p, a);
-    const Vector_3 new1 = surface_.normal(a, b, p), new2 = surface_.normal(b, a, q);
     const double limit = least_alignment_after((std::min)(alignment_of_face(surface_, old1, p, q, b),
                                                           alignment_of_face(surface_, old2, q, p, a)));
     if (alignment_of_face(surface_, new1, a, b, p) < limit || alignment_of_face(surface_, new2, b, a, q) < limit)
@@ -224,6 +228,16 @@ private:
     const auto fold = [&](Index e, const Vector_3& n) { return fold_across(surface_, e, n); };
     return (std::min)({fold(hn, new2), fold(hp, new1), fold(tn, new1), fold(tp, new2)}) >=
            (std::min)({min_fold, fold(hn, old1), fold(hp, old1), fold(tn, old2), fold(tp, old2)});
+  }
+
+  /// Whether the face at `h` has its corners in line, and the one behind, with the normal `behind`, is just cut in two at the
+  /// corner between: the shape stays what it is, even in a fold.
+  bool is_cut_by_cap(Index h, const Vector_3& behind, const Vector_3& new1, const Vector_3& new2) const
+  {
+    const Vector_3& p = surface_.points[mesh_.source(h)];
+    const Vector_3 e1 = surface_.points[mesh_.target(h)] - p, e2 = surface_.points[mesh_.apex(h)] - p;
+    return e1.cross(e2).norm() < height_of_cap * e1.squaredNorm() &&
+           (std::min)(behind.dot(new1), behind.dot(new2)) > alignment_behind_cap;
   }
 
   /// Whether long faces between curves, none of whose corners has a normal of its own, stay where the surface beside

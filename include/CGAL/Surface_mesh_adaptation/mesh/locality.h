@@ -96,11 +96,12 @@ std::vector<Index> sorted_by_key(const Execution& execution, const std::vector<s
   return order;
 }
 
+/// The place in `order` of each number below `n` that is there.
 template <class Execution>
-std::vector<Index> inverse(const Execution& execution, const std::vector<Index>& permutation)
+std::vector<Index> inverse(const Execution& execution, const std::vector<Index>& order, std::size_t n)
 {
-  std::vector<Index> result(permutation.size());
-  for_each_index(execution, permutation.size(), [&](std::size_t i) { result[permutation[i]] = Index(i); });
+  std::vector<Index> result(n);
+  for_each_index(execution, order.size(), [&](std::size_t i) { result[order[i]] = Index(i); });
   return result;
 }
 
@@ -110,8 +111,8 @@ void reorder(const Execution& execution, const std::vector<Index>& order, std::s
 {
   if (items.empty()) return;
   Items result;
-  result.resize(items.size());
-  for_each_index(execution, items.size(), [&](std::size_t i) { result[i] = items[order[i / width] * width + i % width]; });
+  result.resize(order.size() * width);
+  for_each_index(execution, result.size(), [&](std::size_t i) { result[i] = items[order[i / width] * width + i % width]; });
   items.swap(result);
 }
 
@@ -167,23 +168,21 @@ struct Renumbering
   Index vertex(Index v) const { return vertices.empty() ? v : vertices[v]; }
 };
 
-/// Renumbers vertices along the Hilbert curve, and faces by their smallest vertex, unless the order is good already.
+/// Brings the vertices and faces of `imported` into these orders; those that are not in them are holes, and go.
+/// `new_vertex` is the inverse of `vertex_order`.
 template <class Execution, class Import>
-Renumbering improve_locality(const Execution& execution, Import& imported)
+void renumber(const Execution& execution, const std::vector<Index>& vertex_order, const std::vector<Index>& new_vertex,
+              const std::vector<Index>& face_order, Import& imported)
 {
   Mesh_view& mesh = imported.mesh;
-  if (share_of_near_ends(execution, mesh) >= good_locality) return {};
-  std::vector<Index> vertex_order = hilbert_order(execution, imported.points);
-  const std::vector<Index> new_vertex = inverse(execution, vertex_order);
-  std::vector<std::uint64_t> face_key(mesh.number_of_faces());
-  for_each_index(execution, face_key.size(), [&](std::size_t f) {
-    face_key[f] = (std::min)({new_vertex[mesh.corner[3 * f]], new_vertex[mesh.corner[3 * f + 1]],
-                              new_vertex[mesh.corner[3 * f + 2]]});
-  });
-  const std::vector<Index> face_order = sorted_by_key(execution, face_key);
-  const std::vector<Index> new_face = inverse(execution, face_order);
+  const std::vector<Index> new_face = inverse(execution, face_order, mesh.number_of_faces());
   const auto new_halfedge = [&](Index h) { return h == no_index ? h : 3 * new_face[h / 3] + h % 3; };
-
+  reorder(execution, face_order, 3, mesh.corner);
+  reorder(execution, face_order, 3, mesh.twin);
+  reorder(execution, face_order, 3, imported.halfedges);
+  reorder(execution, vertex_order, 1, mesh.outgoing);
+  reorder(execution, vertex_order, 1, imported.points);
+  reorder(execution, vertex_order, 1, imported.vertices);
   for_each_index(execution, mesh.number_of_halfedges(), [&](std::size_t h) {
     mesh.corner[h] = new_vertex[mesh.corner[h]];
     mesh.twin[h] = new_halfedge(mesh.twin[h]);
@@ -191,13 +190,37 @@ Renumbering improve_locality(const Execution& execution, Import& imported)
   for_each_index(execution, mesh.number_of_vertices(), [&](std::size_t v) {
     mesh.outgoing[v] = new_halfedge(mesh.outgoing[v]);
   });
-  reorder(execution, face_order, 3, mesh.corner);
-  reorder(execution, face_order, 3, mesh.twin);
-  reorder(execution, face_order, 3, imported.halfedges);
-  reorder(execution, vertex_order, 1, mesh.outgoing);
-  reorder(execution, vertex_order, 1, imported.points);
-  reorder(execution, vertex_order, 1, imported.vertices);
+}
+
+/// Renumbers vertices along the Hilbert curve, and faces by their smallest vertex, unless the order is good already.
+template <class Execution, class Import>
+Renumbering improve_locality(const Execution& execution, Import& imported)
+{
+  const Mesh_view& mesh = imported.mesh;
+  if (share_of_near_ends(execution, mesh) >= good_locality) return {};
+  std::vector<Index> vertex_order = hilbert_order(execution, imported.points);
+  const std::vector<Index> new_vertex = inverse(execution, vertex_order, mesh.number_of_vertices());
+  std::vector<std::uint64_t> face_key(mesh.number_of_faces());
+  for_each_index(execution, face_key.size(), [&](std::size_t f) {
+    face_key[f] = (std::min)({new_vertex[mesh.corner[3 * f]], new_vertex[mesh.corner[3 * f + 1]],
+                              new_vertex[mesh.corner[3 * f + 2]]});
+  });
+  renumber(execution, vertex_order, new_vertex, sorted_by_key(execution, face_key), imported);
   return {std::move(vertex_order)};
+}
+
+/// Numbers what is no hole anew, in the same order. \pre `mesh.curve` and `mesh.label` hold nothing yet
+template <class Execution, class Import>
+void remove_holes(const Execution& execution, Import& imported)
+{
+  Mesh_view& mesh = imported.mesh;
+  const auto vertices = pack(execution, mesh.number_of_vertices(), [&](std::size_t v) {
+    return !mesh.is_removed_vertex(Index(v));
+  });
+  const auto faces = pack(execution, mesh.number_of_faces(), [&](std::size_t f) { return !mesh.is_removed_face(Index(f)); });
+  renumber(execution, vertices, inverse(execution, vertices, mesh.number_of_vertices()), faces, imported);
+  mesh.curve.resize(mesh.number_of_halfedges());
+  mesh.label.clear();
 }
 
 } // namespace internal

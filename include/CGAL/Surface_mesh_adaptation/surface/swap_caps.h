@@ -12,6 +12,7 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/negligible_length.h>
 
 #include <algorithm>
 #include <array>
@@ -36,9 +37,9 @@ struct Swapped_caps
 class Cap_swapping
 {
 public:
-  /// `constraints` has a value for each halfedge, or none at all.
-  Cap_swapping(Mesh_view& mesh, const std::vector<Vector_3>& points, std::vector<Edge_constraint>& constraints)
-    : mesh_(mesh), points_(points), constraints_(constraints)
+  /// `constraints` has a value for each halfedge, or none at all; heights up to `most` may be negligible.
+  Cap_swapping(Mesh_view& mesh, const std::vector<Vector_3>& points, std::vector<Edge_constraint>& constraints, double most)
+    : mesh_(mesh), points_(points), constraints_(constraints), negligible_(most)
   {}
 
   /// Swaps until no cap can be mended. Those that lie one upon the other get at good faces step by step, while the
@@ -46,7 +47,10 @@ public:
   template <class Execution>
   Swapped_caps run(const Execution& execution)
   {
-    std::vector<Index> caps = pack(execution, mesh_.number_of_faces(), [&](std::size_t f) { return is_cap(Index(f)); });
+    std::vector<Index> caps = pack(execution, mesh_.number_of_faces(), [&](std::size_t f) { return is_flat(Index(f)); });
+    if (caps.empty()) return {};
+    negligible_ = internal::negligible_length(execution, points_, negligible_);
+    caps.erase(std::remove_if(caps.begin(), caps.end(), [&](Index f) { return !is_cap(f); }), caps.end());
     std::size_t left = max_swaps * caps.size();
     for (bool is_changed = true; is_changed && left > 0;) {
       is_changed = false;
@@ -82,7 +86,14 @@ private:
     return height(point(mesh_.corner[3 * f]), point(mesh_.corner[3 * f + 1]), point(mesh_.corner[3 * f + 2]));
   }
 
-  bool is_cap(Index f) const { return height(f) < max_height; }
+  bool is_flat(Index f) const { return height(f) < internal::negligible_share; }
+
+  bool is_cap(Index f) const
+  {
+    if (!is_flat(f)) return false;
+    const Index h = longest_edge(f);
+    return height(f) < (std::max)(max_height, negligible_ / length(mesh_.source(h), mesh_.target(h)));
+  }
 
   double length(Index a, Index b) const { return (point(b) - point(a)).norm(); }
 
@@ -147,18 +158,20 @@ private:
   Mesh_view& mesh_;
   const std::vector<Vector_3>& points_;
   std::vector<Edge_constraint>& constraints_;
+  double negligible_; // height
   Swapped_caps origins_;
 };
 
-/// Swaps the longest edges of caps where that changes the shape by less than their height. Boundaries and constrained
-/// edges stay; `constraints` has a value for each halfedge, or none at all.
+/// Swaps the longest edges of caps where that changes the shape by less than their height: a hundred thousandth of that edge,
+/// or up to `most` what is negligible. Boundaries and constrained edges stay; `constraints` has a value for each halfedge, or
+/// none at all.
 /// \par Complexity
 /// O(n), and the swaps one after the other
 template <class Execution>
 Swapped_caps swap_caps(const Execution& execution, Mesh_view& mesh, const std::vector<Vector_3>& points,
-                       std::vector<Edge_constraint>& constraints)
+                       std::vector<Edge_constraint>& constraints, double most)
 {
-  return Cap_swapping(mesh, points, constraints).run(execution);
+  return Cap_swapping(mesh, points, constraints, most).run(execution);
 }
 
 } // namespace Surface_mesh_adaptation
