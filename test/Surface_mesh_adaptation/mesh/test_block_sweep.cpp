@@ -58,6 +58,19 @@ std::vector<Index> random_vertices(const Mesh_view& m, double share, Random& ran
   return result;
 }
 
+TEST(Short_blocks, grow_with_the_mesh_so_that_small_ones_have_many)
+{
+  std::size_t last = SMA::length_of_short_blocks(0);
+  for (std::size_t n = 1; n < 10000000; n += 1 + n / 7) {
+    const std::size_t length = SMA::length_of_short_blocks(n);
+    EXPECT_GE(length, last);
+    EXPECT_LE(length, SMA::block_length);
+    EXPECT_TRUE(n < 100000 || SMA::number_of_chunks(n, length) >= 256) << n;
+    last = length;
+  }
+  EXPECT_EQ(last, SMA::block_length);
+}
+
 TEST(Border_of_blocks, colors_blocks_differently_if_an_edge_of_a_listed_vertex_joins_them)
 {
   Random random(12);
@@ -65,16 +78,17 @@ TEST(Border_of_blocks, colors_blocks_differently_if_an_edge_of_a_listed_vertex_j
   for (const Mesh_view& m : views_of_several_blocks())
     for (const double share : {0.02, 0.2, 1.0}) {
       const std::vector<Index> vertices = random_vertices(m, share, random);
-      const SMA::Border_of_blocks border(SMA::Sequential_execution(), m, vertices, 1);
+      const std::size_t length = SMA::block_length >> random.below(3);
+      const SMA::Border_of_blocks border(SMA::Sequential_execution(), m, vertices, 1, length);
       std::vector<std::size_t> color(border.number_of_blocks(), ~std::size_t(0));
       const auto classes = border.blocks_by_color();
       for (std::size_t c = 0; c < classes.size(); ++c)
         for (const Index b : classes[c]) color[b] = c;
       for (std::size_t b = 0; b < border.number_of_blocks(); ++b)
         for (std::size_t i = border.begin(b); i < border.end(b); ++i) {
-          ASSERT_EQ(vertices[i] / SMA::block_length, b);
+          ASSERT_EQ(vertices[i] / length, b);
           m.for_each_neighbor(vertices[i], [&](Index w) {
-            const std::size_t other = w / SMA::block_length;
+            const std::size_t other = w / length;
             if (other == b) return;
             ++edges_between_blocks;
             ASSERT_NE(color[other], color[b]);

@@ -152,17 +152,19 @@ private:
   /// Tightens the metric around the faces that leave the surface by more than is asked for, and adapts the mesh to that
   /// there. Those that leave it most go first: the number of vertices is not to grow without end where sizes are not
   /// what is missing, as at edges of the input that faces cross. One place that cannot be mended does not keep others from
-  /// it. Keeps the mesh that comes nearest to what is asked for, and says where it is still too far away.
+  /// it, and where little is left, it is tried more often: each time other faces there come out too far away.
+  /// Keeps the mesh that comes nearest to what is asked for, and says where it is still too far away.
   void meet_deviation(double asked)
   {
     const double most_vertices = largest_growth * double(surface_.mesh.number_of_vertices());
     Face_deviations<Surface> deviations(execution_, surface_, safety_of_deviation * asked);
     std::optional<Surface> best;
-    double of_best = infinity, least = infinity, least_excess = infinity;
+    double of_best = infinity, least = infinity, least_excess = infinity, first_excess = 0;
     int idle = 0;
     for (int i = 0; measure(deviations) > asked && i < max_corrections_of_deviation; ++i) {
       if (i == 0 && has_creases_at_first(deviations, asked)) return;
       const double excess = deviations.excess(execution_, asked);
+      if (i == 0) first_excess = excess;
       const bool is_as_near = report_.deviation < largest_of_equals * least;
       const bool is_best = report_.deviation < least || (is_as_near && excess < least_excess);
       idle = is_best || excess < worthwhile_excess * least_excess ? 0 : idle + 1;
@@ -172,7 +174,8 @@ private:
       }
       least = (std::min)(least, report_.deviation);
       least_excess = (std::min)(least_excess, excess);
-      if (idle == idle_corrections || !correct(deviations, most_vertices)) break;
+      const int most_idle = least_excess < little_excess * first_excess ? idle_corrections_of_little : idle_corrections;
+      if (idle >= most_idle || !correct(deviations, most_vertices)) break;
     }
     extent_ = 0;
     if (report_.deviation > of_best) restore(*best, of_best);
@@ -479,7 +482,8 @@ private:
   static constexpr double largest_scale = 1.2;           // of the metric meanwhile, its logarithm: lengths by 1.8
   static constexpr double budget_precision = 0.03;
   static constexpr std::size_t rounds_of_correction = 3;
-  static constexpr int max_corrections_of_deviation = 20, idle_corrections = 4;
+  static constexpr int max_corrections_of_deviation = 40, idle_corrections = 4, idle_corrections_of_little = 12;
+  static constexpr double little_excess = 0.05; // of what it was at first
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr double largest_of_equals = 1.05; // of the largest deviations of two meshes
   static constexpr double worthwhile_excess = 0.9;  // what is left of it after a correction that gained something

@@ -85,15 +85,17 @@ private:
       c.applied += examine(attempt);
       if (attempt.is_put_off) late.push_back(v);
     };
+    const std::size_t length = length_of_short_blocks(mesh_.number_of_vertices());
     const std::vector<Index> deferred = sweep_blocks(
       execution_, mesh_.number_of_vertices(), local,
       [&](Index v, const Block& block, Sweep_counts& c, std::vector<Index>& list) {
         if (mesh_.is_removed_vertex(v) || !is_candidate(v)) return;
         if (!contains_ring(block, mesh_, v)) return list.push_back(v);
         visit(v, [&](Index w) { return block.contains(w); }, c, list); // or has had its turn
-      });
+      },
+      length);
     // what would have to look at vertices that another task moves is left for the end: a few near features and folds
-    const std::vector<Index> late = sweep_block_borders(execution_, mesh_, deferred, local, visit);
+    const std::vector<Index> late = sweep_block_borders(execution_, mesh_, deferred, local, visit, length);
     std::vector<Index> never;
     for (const Index v : late) visit(v, [](Index) { return true; }, local, never);
     ++local.sweeps;

@@ -5,7 +5,7 @@
 // operation of another: blocks are worked through in parallel, each in the order of its ids and at the speed of
 // sequential code. What straddles a block border is deferred and then made independent by claims, or block by block
 // with blocks of one colour at a time.
-// The blocks depend on the ids alone, never on the number of threads.
+// The blocks depend on the ids and their number alone, never on the number of threads.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_MESH_BLOCK_SWEEP_H
 #define CGAL_SURFACE_MESH_ADAPTATION_MESH_BLOCK_SWEEP_H
@@ -23,6 +23,16 @@ namespace Surface_mesh_adaptation {
 
 /// Vertices in a block: its data fit a second-level cache, and about 15 % of its operations touch another block.
 constexpr std::size_t block_length = 1024;
+
+/// The same for work that is long at each vertex, as moves are: small meshes have shorter ones, so that there is some for
+/// many threads where blocks of one colour take turns. Below 256 more is deferred than that wins.
+inline std::size_t length_of_short_blocks(std::size_t number_of_vertices)
+{
+  constexpr std::size_t shortest = 256, enough_blocks = 512;
+  std::size_t length = shortest;
+  while (length < block_length && number_of_vertices > enough_blocks * length) length *= 2;
+  return length;
+}
 
 struct Block
 {
@@ -64,16 +74,16 @@ struct Sweep_counts
 /// Adds to `counts`, and returns the concatenated `deferred` lists.
 template <class Execution, class Visit>
 std::vector<Index> sweep_blocks(const Execution& execution, std::size_t number_of_vertices, Sweep_counts& counts,
-                                const Visit& visit)
+                                const Visit& visit, std::size_t length = block_length)
 {
-  std::vector<Sweep_counts> partial(number_of_chunks(number_of_vertices, block_length));
-  std::vector<Index> deferred = gather<Index>(execution, number_of_vertices, block_length,
+  std::vector<Sweep_counts> partial(number_of_chunks(number_of_vertices, length));
+  std::vector<Index> deferred = gather<Index>(execution, number_of_vertices, length,
                                               [&](std::size_t begin, std::size_t end, std::vector<Index>& list) {
     if (is_stopped(execution)) return;
     const Block block{Index(begin), Index(end)};
     Sweep_counts local; // of this task: counters in shared lines would cost more than the work
     for (std::size_t v = begin; v < end; ++v) visit(Index(v), block, local, list);
-    partial[begin / block_length] = local;
+    partial[begin / length] = local;
   });
   for (const Sweep_counts& p : partial) counts += p;
   counts.deferred += deferred.size();
@@ -83,12 +93,12 @@ std::vector<Index> sweep_blocks(const Execution& execution, std::size_t number_o
 /// A block and those next to it.
 struct Block_neighborhood
 {
-  Index block;
+  Index block, length;
   const Ring<Index>& adjacent;
 
   bool contains(Index v) const
   {
-    const Index b = Index(v / block_length);
+    const Index b = v / length;
     return b == block || std::find(adjacent.begin(), adjacent.end(), b) != adjacent.end();
   }
 };
@@ -100,11 +110,12 @@ class Border_of_blocks
 public:
   /// Blocks of one colour are not adjacent, and if `distance` is 2 instead of 1, not adjacent to a common one either.
   template <class Execution>
-  Border_of_blocks(const Execution& execution, const Mesh_view& mesh, const std::vector<Index>& vertices, int distance)
-    : first_(number_of_chunks(mesh.number_of_vertices(), block_length) + 1), adjacent_(first_.size() - 1)
+  Border_of_blocks(const Execution& execution, const Mesh_view& mesh, const std::vector<Index>& vertices, int distance,
+                   std::size_t length = block_length)
+    : length_(Index(length)), first_(number_of_chunks(mesh.number_of_vertices(), length) + 1), adjacent_(first_.size() - 1)
   {
     for_each_index(execution, first_.size(), [&](std::size_t b) {
-      const auto found = std::lower_bound(vertices.begin(), vertices.end(), Index(b * block_length));
+      const auto found = std::lower_bound(vertices.begin(), vertices.end(), Index(b * length_));
       first_[b] = std::size_t(found - vertices.begin());
     });
     const auto add = [&](std::size_t b, std::size_t other) {
@@ -113,7 +124,7 @@ public:
     };
     for_each_index(execution, adjacent_.size(), [&](std::size_t b) {
       for (std::size_t i = first_[b]; i < first_[b + 1]; ++i)
-        mesh.for_each_neighbor(vertices[i], [&](Index w) { add(b, w / block_length); });
+        mesh.for_each_neighbor(vertices[i], [&](Index w) { add(b, w / length_); });
     }, 1);
     for (std::size_t b = 0; b < adjacent_.size(); ++b)
       for (std::size_t i = 0; i < adjacent_[b].size(); ++i) add(adjacent_[b][i], b);
@@ -135,13 +146,14 @@ public:
   /// Whether no task visits `w` while another one works through `block`.
   bool stands_still(Index w, std::size_t block) const
   {
-    const std::size_t other = w / block_length;
+    const std::size_t other = w / length_;
     return other == block || coloring_.color[other] != coloring_.color[block];
   }
 
-  Block_neighborhood neighborhood(std::size_t block) const { return {Index(block), adjacent_[block]}; }
+  Block_neighborhood neighborhood(std::size_t block) const { return {Index(block), length_, adjacent_[block]}; }
 
 private:
+  Index length_; // of a block
   std::vector<std::size_t> first_; // of each block, and the end
   std::vector<Ring<Index>> adjacent_;
   Graph_coloring coloring_;
@@ -176,10 +188,11 @@ std::vector<Index> sweep_colors(const Execution& execution, const Border_of_bloc
 /// visits `w` meanwhile, which is so for the neighbours of `v`. Adds to `counts`, and returns the concatenated lists.
 template <class Execution, class Visit>
 std::vector<Index> sweep_block_borders(const Execution& execution, const Mesh_view& mesh,
-                                       const std::vector<Index>& vertices, Sweep_counts& counts, const Visit& visit)
+                                       const std::vector<Index>& vertices, Sweep_counts& counts, const Visit& visit,
+                                       std::size_t length = block_length)
 {
   if (vertices.empty()) return {};
-  const Border_of_blocks border(execution, mesh, vertices, 1);
+  const Border_of_blocks border(execution, mesh, vertices, 1, length);
   return sweep_colors(execution, border, counts,
                       [&](std::size_t k, std::size_t b, Sweep_counts& c, std::vector<Index>& list) {
     visit(vertices[k], [&](Index w) { return border.stands_still(w, b); }, c, list);
