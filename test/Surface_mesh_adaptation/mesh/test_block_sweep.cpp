@@ -58,17 +58,18 @@ std::vector<Index> random_vertices(const Mesh_view& m, double share, Random& ran
   return result;
 }
 
-TEST(Short_blocks, grow_with_the_mesh_so_that_small_ones_have_many)
+TEST(Short_blocks, are_many_where_there_would_be_too_few)
 {
-  std::size_t last = SMA::length_of_short_blocks(0);
-  for (std::size_t n = 1; n < 10000000; n += 1 + n / 7) {
+  std::size_t last = 0;
+  for (std::size_t n = 32 * SMA::block_length + 1; n < 10000000; n += 1 + n / 7) {
     const std::size_t length = SMA::length_of_short_blocks(n);
     EXPECT_GE(length, last);
-    EXPECT_LE(length, SMA::block_length);
-    EXPECT_TRUE(n < 100000 || SMA::number_of_chunks(n, length) >= 256) << n;
+    EXPECT_TRUE(length == SMA::block_length || n / length <= 512) << n;
+    EXPECT_GE(SMA::number_of_chunks(n, length), n < 100000 ? 128u : 256u) << n;
     last = length;
   }
   EXPECT_EQ(last, SMA::block_length);
+  EXPECT_EQ(SMA::length_of_short_blocks(1000), SMA::block_length);
 }
 
 TEST(Border_of_blocks, colors_blocks_differently_if_an_edge_of_a_listed_vertex_joins_them)

@@ -24,11 +24,13 @@ namespace Surface_mesh_adaptation {
 /// Vertices in a block: its data fit a second-level cache, and about 15 % of its operations touch another block.
 constexpr std::size_t block_length = 1024;
 
-/// The same for work that is long at each vertex, as moves are: small meshes have shorter ones, so that there is some for
-/// many threads where blocks of one colour take turns. Below 256 more is deferred than that wins.
+/// The same for work that is long at each vertex, as moves are. There are more blocks then where there are too few for many
+/// threads, since those of one colour take turns; below 256 more is deferred than that wins. Small meshes are done before
+/// that counts.
 inline std::size_t length_of_short_blocks(std::size_t number_of_vertices)
 {
-  constexpr std::size_t shortest = 256, enough_blocks = 512;
+  constexpr std::size_t shortest = 256, enough_blocks = 512, small = 32 * block_length;
+  if (number_of_vertices <= small) return block_length;
   std::size_t length = shortest;
   while (length < block_length && number_of_vertices > enough_blocks * length) length *= 2;
   return length;
