@@ -314,14 +314,12 @@ TEST(Needles, count_for_what_a_tolerance_certifies)
   Random random(9);
   const Soup soup = prism(random, 7, 2, 0);
   auto mesh = with_needles(random, soup, 20, 1e-6);
-  const auto before = mesh;
+  const Soup before = shapes::soup(mesh);
   const auto report = SMA::adapt_surface_mesh(sequential, mesh, SMA::Uniform_metric_field(0.2),
                                               SMA::parameters::tolerance(1e-3));
-  const SMA::Triangle_tree input(sequential, SMA::read_face_graph(sequential, before, before.points()).mesh,
-                                 SMA::read_face_graph(sequential, before, before.points()).points),
-    output(sequential, SMA::read_face_graph(sequential, mesh, mesh.points()).mesh,
-           SMA::read_face_graph(sequential, mesh, mesh.points()).points);
-  EXPECT_LE(SMA::hausdorff_distance_bound(sequential, input, output, {1e-8, 1}), report.certified_distance + 1e-8);
+  const auto tree = [](const Soup& s) { return SMA::Triangle_tree(sequential, shapes::view(s), s.points); };
+  EXPECT_LE(SMA::hausdorff_distance_bound(sequential, tree(before), tree(shapes::soup(mesh)), {1e-8, 1}),
+            report.certified_distance + 1e-8);
   EXPECT_LE(report.certified_distance, 1e-3);
 }
 

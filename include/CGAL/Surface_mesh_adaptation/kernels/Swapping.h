@@ -202,13 +202,12 @@ private:
   {
     const Index t = mesh_.twin[h];
     const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
-    const Vector_3 old1 = surface_.normal(p, q, b), old2 = surface_.normal(q, p, a);
-    const Vector_3 new1 = surface_.normal(a, b, p), new2 = surface_.normal(b, a, q);
-    if (is_cut_by_cap(h, old2, new1, new2) || is_cut_by_cap(t, old1, new1, new2))
-      return !surface_.tolerance || keeps_tolerance(h);
+    if (is_cut_by_cap(h) || is_cut_by_cap(t)) return !surface_.tolerance || keeps_tolerance(h);
     const double length = surface_.length(a, b);
     if (length > (std::max)(thresholds_.max_length, surface_.length(p, q)) && length > length_beside_degenerate_face(h))
       return false;
+    const Vector_3 old1 = surface_.normal(p, q, b), old2 = surface_.normal(q, p, a);
+    const Vector_3 new1 = surface_.normal(a, b, p), new2 = surface_.normal(b, a, q);
     const double limit = least_alignment_after((std::min)(alignment_of_face(surface_, old1, p, q, b),
                                                           alignment_of_face(surface_, old2, q, p, a)));
     if (alignment_of_face(surface_, new1, a, b, p) < limit || alignment_of_face(surface_, new2, b, a, q) < limit)
@@ -230,14 +229,15 @@ private:
            (std::min)({min_fold, fold(hn, old1), fold(hp, old1), fold(tn, old2), fold(tp, old2)});
   }
 
-  /// Whether the face at `h` has its corners in line, and the one behind, with the normal `behind`, is just cut in two at the
-  /// corner between: the shape stays what it is, even in a fold.
-  bool is_cut_by_cap(Index h, const Vector_3& behind, const Vector_3& new1, const Vector_3& new2) const
+  /// Whether the face at `h` has its corners in line, and the one behind is just cut in two at the corner between: the shape
+  /// stays what it is, even in a fold.
+  bool is_cut_by_cap(Index h) const
   {
-    const Vector_3& p = surface_.points[mesh_.source(h)];
-    const Vector_3 e1 = surface_.points[mesh_.target(h)] - p, e2 = surface_.points[mesh_.apex(h)] - p;
-    return e1.cross(e2).norm() < height_of_cap * e1.squaredNorm() &&
-           (std::min)(behind.dot(new1), behind.dot(new2)) > alignment_behind_cap;
+    const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(mesh_.twin[h]);
+    const Vector_3 e1 = surface_.points[q] - surface_.points[p], e2 = surface_.points[b] - surface_.points[p];
+    if (!(e1.cross(e2).norm() < height_of_cap * e1.squaredNorm())) return false;
+    const Vector_3 behind = surface_.normal(q, p, a);
+    return (std::min)(behind.dot(surface_.normal(a, b, p)), behind.dot(surface_.normal(b, a, q))) > alignment_behind_cap;
   }
 
   /// Whether long faces between curves, none of whose corners has a normal of its own, stay where the surface beside

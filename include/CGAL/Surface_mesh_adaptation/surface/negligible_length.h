@@ -5,7 +5,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_NEGLIGIBLE_LENGTH_H
 #define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_NEGLIGIBLE_LENGTH_H
 
-#include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/bounding_box.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Facets.h>
 
 #include <algorithm>
@@ -22,8 +22,8 @@ double negligible_length(const Execution& execution, const std::vector<Vector_3>
 {
   constexpr double roundings = 4; // each of two points may have been rounded twice
   constexpr double of_kernels = 1e-6; // of the diagonal
-  const auto [low, high] = bounding_box(points);
-  return (std::min)(most, (std::max)(roundings * coordinate_rounding(execution, points), of_kernels * (high - low).norm()));
+  const double rounding = coordinate_rounding(execution, points), diagonal = diagonal_of_bounding_box(points);
+  return (std::min)(most, (std::max)(roundings * rounding, of_kernels * diagonal));
 }
 
 /// The same, in lengths of the longest edge of a face.
