@@ -8,6 +8,7 @@
 #include <CGAL/Surface_mesh_adaptation/execution/Buffer.h>
 #include <CGAL/Surface_mesh_adaptation/execution/Profiled_execution.h>
 #include <CGAL/Surface_mesh_adaptation/execution/keep_freed_memory.h>
+#include <CGAL/Surface_mesh_adaptation/execution/sort.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <gtest/gtest.h>
@@ -55,6 +56,23 @@ TEST(Execution, cuts_chunks_of_the_length_asked_for)
     const std::vector<std::pair<std::size_t, std::size_t>> expected = {{0, 10}, {10, 20}, {20, 30}, {30, 37}};
     EXPECT_EQ(chunks, expected);
   });
+}
+
+TEST(Execution, sorts_by_key_like_a_stable_sort)
+{
+  Random random(17);
+  for (const std::size_t n : {0u, 1u, 8191u, 8192u, 8193u, 40000u, 65537u})
+    for (const std::uint64_t factor : {std::uint64_t(0), std::uint64_t(1), std::uint64_t(1) << 20, ~std::uint64_t(0) / 1000})
+      for (const std::size_t keys : {1u, 10u, 1000u}) {
+        std::vector<std::uint64_t> key(n);
+        for (std::uint64_t& k : key) k = factor * random.below(keys);
+        Ids expected(n);
+        std::iota(expected.begin(), expected.end(), 0u);
+        std::stable_sort(expected.begin(), expected.end(), [&](std::size_t a, std::size_t b) { return key[a] < key[b]; });
+        for_each_policy([&](const auto& execution, const std::string& name) {
+          EXPECT_EQ(SMA::sorted_by_key(execution, key), expected) << name << " " << n << " " << factor << " " << keys;
+        });
+      }
 }
 
 TEST(Execution, scans_to_the_sums_before)

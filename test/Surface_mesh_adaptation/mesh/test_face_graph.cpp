@@ -125,22 +125,6 @@ TEST(Face_graph_with_garbage, is_read_without_it)
   EXPECT_EQ(checks::topology(imported.mesh).euler_characteristic, 2);
 }
 
-TEST(Sorted_by_key, sorts_like_a_stable_sort_whatever_the_number_of_runs_and_ties)
-{
-  shapes::Random random(17);
-  for (const std::size_t n : {0u, 1u, 4095u, 4096u, 4097u, 8192u, 12289u, 40000u, 65537u})
-    for (const std::size_t keys : {1u, 10u, 1000000u}) {
-      std::vector<std::uint64_t> key(n);
-      for (std::uint64_t& k : key) k = random.below(keys);
-      std::vector<Index> expected(n);
-      std::iota(expected.begin(), expected.end(), Index(0));
-      std::stable_sort(expected.begin(), expected.end(), [&](Index a, Index b) { return key[a] < key[b]; });
-      for_each_policy([&](const auto& execution, const std::string& name) {
-        EXPECT_EQ(SMA::internal::sorted_by_key(execution, key), expected) << name << " " << n << " " << keys;
-      });
-    }
-}
-
 TEST(Hilbert_key, leads_through_all_cells_each_next_to_the_last_one)
 {
   using Cell = std::array<int, 3>;

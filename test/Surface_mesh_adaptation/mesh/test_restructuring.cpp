@@ -4,7 +4,9 @@
 
 #include "checks.h"
 #include "mesh/views.h"
+#include "policies.h"
 
+#include <CGAL/Surface_mesh_adaptation/mesh/Splitting.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/fill_holes.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/restructure.h>
 
@@ -14,6 +16,8 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace {
@@ -105,6 +109,78 @@ TEST(Restructuring, cuts_every_face_along_its_own_edges)
     EXPECT_NEAR(checks::area(after), 1, 1e-12);
     EXPECT_GT(checks::least_area(after, [](const Vector_3&) { return Vector_3(0, 0, 1); }), 0);
   }
+}
+
+/// The ends of the edge that a vertex is the middle of, or twice the vertex itself, with the numbers before.
+using Origin = std::array<Index, 2>;
+
+/// The origin of each vertex that `plan` makes, where `number(v)` is the new number of `v`.
+template <class Plan, class Number>
+std::vector<Origin> origins(const Mesh_view& m, const SMA::Buffer<std::uint8_t>& codes, const Plan& plan,
+                            const Number& number)
+{
+  std::vector<Origin> result(plan.number_of_vertices(), Origin{SMA::no_index, SMA::no_index});
+  for (Index v = 0; v < m.number_of_vertices(); ++v)
+    if (!m.is_removed_vertex(v)) result[number(v)] = {v, v};
+  for (Index h = 0; h < m.number_of_halfedges(); ++h)
+    if (!m.is_removed_face(h / 3) && (codes[h / 3] >> h % 3 & 1) != 0)
+      result[plan.midpoint(h)] = {(std::min)(m.source(h), m.target(h)), (std::max)(m.source(h), m.target(h))};
+  return result;
+}
+
+/// Each face with the origins of its corners, the curves of its edges and its label.
+std::set<std::array<Index, 10>> described_faces(const Mesh_view& m, const std::vector<Origin>& origin)
+{
+  std::set<std::array<Index, 10>> result;
+  for (Index f = 0; f < m.number_of_faces(); ++f) {
+    if (m.is_removed_face(f)) continue;
+    Index first = 3 * f;
+    for (Index h = 3 * f; h < 3 * f + 3; ++h)
+      if (origin[m.corner[h]] < origin[m.corner[first]]) first = h;
+    std::array<Index, 10> face;
+    for (Index i = 0, h = first; i < 3; ++i, h = Mesh_view::next(h)) {
+      face[3 * i] = origin[m.corner[h]][0];
+      face[3 * i + 1] = origin[m.corner[h]][1];
+      face[3 * i + 2] = m.curve[h];
+    }
+    face[9] = m.has_labels() ? m.label[f] : 0;
+    result.insert(face);
+  }
+  return result;
+}
+
+TEST(Splitting, makes_the_same_faces_as_a_rewrite)
+{
+  for_many_views(40, [&](Mesh_view& m, Random& random) {
+    add_features(m, 0.2, random);
+    if (random.real() < 0.5) {
+      m.label.resize(m.number_of_faces());
+      for (Index& label : m.label) label = Index(random.below(3));
+    }
+    for (int round = 0; round < 3; ++round) {
+      make_holes(m, m.number_of_vertices() / 4, random);
+      const auto codes = random_marks(m, random.real(), random);
+      const SMA::Restructuring plan(SMA::Sequential_execution(), m, codes);
+      Mesh_view expected;
+      plan.build(SMA::Sequential_execution(), expected);
+      const auto faces = described_faces(expected, origins(m, codes, plan, [&](Index v) { return plan.vertex(v); }));
+      std::vector<Index> marked; // and some others
+      for (Index f = 0; f < m.number_of_faces(); ++f)
+        if (codes[f] != 0 || (!m.is_removed_face(f) && random.real() < 0.1)) marked.push_back(f);
+      const Mesh_view before = m;
+      for_each_policy([&](const auto& execution, const std::string& name) {
+        SCOPED_TRACE(name);
+        m = before;
+        const SMA::Splitting splitting(execution, m, codes, marked);
+        const auto origin = origins(m, codes, splitting, [](Index v) { return v; });
+        splitting.apply(execution, m);
+        ASSERT_EQ(m.number_of_faces(), splitting.number_of_faces());
+        ASSERT_EQ(m.number_of_vertices(), splitting.number_of_vertices());
+        ASSERT_TRUE(checks::is_valid(m));
+        ASSERT_EQ(described_faces(m, origin), faces);
+      });
+    }
+  });
 }
 
 TEST(Restructuring, knows_all_sixteen_patterns)

@@ -7,42 +7,48 @@
 
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
-#include <CGAL/Surface_mesh_adaptation/mesh/locality.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
-#include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <vector>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
+/// The keys of all faces of a mesh, in a table that finds faces by them.
 class Face_keys
 {
 public:
   Face_keys() = default; ///< of no faces
 
-  /// Work: O(n log n).
+  /// Work: O(n).
   template <class Execution, class Points>
   Face_keys(const Execution& execution, const Mesh_view& mesh, const Points& points) : keys_(mesh.number_of_faces())
   {
+    while (mask_ < 2 * keys_.size()) mask_ = 2 * mask_ + 1;
+    slots_.reset(new std::atomic<Index>[mask_ + 1]);
+    for_each_index(execution, mask_ + 1, [&](std::size_t i) { slots_[i].store(no_index, std::memory_order_relaxed); });
     for_each_index(execution, keys_.size(), [&](std::size_t f) {
       keys_[f] = key(points[mesh.corner[3 * f]], points[mesh.corner[3 * f + 1]], points[mesh.corner[3 * f + 2]]);
     });
-    order_ = internal::sorted_by_key(execution, keys_);
+    for_each_index(execution, keys_.size(), [&](std::size_t f) { insert(Index(f)); });
   }
 
   std::size_t size() const { return keys_.size(); }
   std::uint64_t operator[](Index f) const { return keys_[f]; }
 
-  /// The face with this key, or `no_index`.
+  /// The face with this key, the first one if there are more, or `no_index`.
   Index face(std::uint64_t key) const
   {
-    const auto is_less = [&](Index f, std::uint64_t k) { return keys_[f] < k; };
-    const auto at = std::lower_bound(order_.begin(), order_.end(), key, is_less);
-    return at != order_.end() && keys_[*at] == key ? *at : no_index;
+    if (keys_.empty()) return no_index;
+    for (std::size_t i = key & mask_;; i = (i + 1) & mask_) {
+      const Index f = slots_[i].load(std::memory_order_relaxed);
+      if (f == no_index || keys_[f] == key) return f;
+    }
   }
 
 private:
@@ -58,8 +64,21 @@ private:
     return result;
   }
 
+  /// In the first slot that is free; what is found there later does not depend on who comes first.
+  void insert(Index f)
+  {
+    for (std::size_t i = keys_[f] & mask_;; i = (i + 1) & mask_) {
+      Index other = no_index;
+      if (slots_[i].compare_exchange_strong(other, f, std::memory_order_relaxed)) return;
+      if (keys_[other] != keys_[f]) continue;
+      while (f < other && !slots_[i].compare_exchange_weak(other, f, std::memory_order_relaxed)) {}
+      return;
+    }
+  }
+
   std::vector<std::uint64_t> keys_;
-  std::vector<Index> order_; // of the faces by their keys
+  std::size_t mask_ = 0;                       // number of slots, a power of two, less one
+  std::unique_ptr<std::atomic<Index>[]> slots_; // at least twice as many as faces; linear probing
 };
 
 } // namespace Surface_mesh_adaptation

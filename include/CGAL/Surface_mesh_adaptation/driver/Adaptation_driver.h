@@ -102,13 +102,14 @@ private:
     return thresholds;
   }
 
-  /// Every vertex may have to move, but collapses and swaps need a short edge, a bad face or a curve: on a mesh that is
-  /// adapted already there are few. Such a mesh is not regularized either, which would change it all over.
+  /// Every vertex may have to move, and every edge to be split, but collapses and swaps need a short edge, a bad face or a
+  /// curve: on a mesh that is adapted already there are few. Such a mesh is not regularized either, which would change it
+  /// all over.
   void find_work()
   {
     const Mesh_view& mesh = surface_.mesh;
-    const std::uint8_t everywhere =
-      std::uint8_t(std::uint8_t(Activity::relocate) | (is_adapted_ ? 0 : std::uint8_t(Activity::regularize)));
+    const std::uint8_t everywhere = std::uint8_t(std::uint8_t(Activity::relocate) | std::uint8_t(Activity::refine) |
+                                                 (is_adapted_ ? 0 : std::uint8_t(Activity::regularize)));
     fill(execution_, surface_.active, mesh.number_of_vertices(), everywhere);
     for_each_index(execution_, mesh.number_of_faces(), [&](std::size_t f) {
       if (mesh.is_removed_face(Index(f))) return;
@@ -177,7 +178,7 @@ private:
       const int most_idle = least_excess < little_excess * first_excess ? idle_corrections_of_little : idle_corrections;
       if (idle >= most_idle || !correct(deviations, most_vertices)) break;
     }
-    extent_ = 0;
+    work_everywhere();
     if (report_.deviation > of_best) restore(*best, of_best);
     mark_creases(deviations, asked);
   }
@@ -238,7 +239,7 @@ private:
       refinement_.compact();
       is_parted_ = true;
     }
-    extent_ = 0;
+    work_everywhere();
   }
 
   Limits_of_tightening limits_of_deviation() const
@@ -277,16 +278,26 @@ private:
     return factors;
   }
 
-  /// Lets the kernels look at the vertices that are marked and those next to them, and at no others.
+  /// Lets the kernels look at the vertices that are marked and those next to them, and at no others, but for long edges
+  /// that are left.
   void work_where(const std::vector<std::uint8_t>& is_marked)
   {
     extent_ = count_if(execution_, is_marked.size(), [&](std::size_t v) { return is_marked[v] != 0; });
-    fill(execution_, surface_.active, is_marked.size(), std::uint8_t(0));
+    refinement_.work_locally(true);
+    for_each_index(execution_, is_marked.size(), [&](std::size_t v) {
+      surface_.active[v] = std::uint8_t(surface_.active[v] & std::uint8_t(Activity::refine));
+    });
     for_each_index(execution_, is_marked.size(), [&](std::size_t v) {
       if (is_marked[v] == 0) return;
       activate(surface_, Index(v));
       surface_.mesh.for_each_neighbor(Index(v), [&](Index w) { activate(surface_, w); });
     });
+  }
+
+  void work_everywhere()
+  {
+    extent_ = 0;
+    refinement_.work_locally(false);
   }
 
   /// The logarithm of the scale at which as many edges leave the range as vertices are `missing`, or too many: a mesh

@@ -22,6 +22,7 @@
 #include <CGAL/Surface_mesh_adaptation/kernels/common.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/curve_spacing.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/edge_middle.h>
+#include <CGAL/Surface_mesh_adaptation/mesh/Splitting.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/fill_holes.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/restructure.h>
@@ -63,6 +64,10 @@ public:
             spare_.curve, spare_.outgoing, spare_.label);
   }
 
+  /// Where a small part of the mesh is worked on: what cannot be split is looked at again once something has changed
+  /// there, and a few edges are split where they are. Else all is looked at and rewritten in each sweep.
+  void work_locally(bool is_local) { is_local_ = is_local; }
+
   /// Splits every edge that is too long, once, if there are more than `negligible`, but on needles only once those of
   /// curves are short enough: swaps remove fans then. Returns the number of edges split.
   std::size_t sweep(std::size_t negligible, Sweep_counts& counts)
@@ -77,12 +82,9 @@ public:
       marked = settle_marks(negligible);
     }
     if (marked == 0) return 0;
-    const Restructuring plan(execution_, mesh_, codes_);
-    if ((is_at_limit_ = is_beyond_limit(plan))) return 0;
-    if (expected_vertices_ == 0) expected_vertices_ = expected_number_of_vertices();
-    choose_diagonals();
-    place_vertices(plan);
-    commit(plan);
+    if (may_split_in_place(marked)) split_in_place();
+    else rewrite();
+    if (is_at_limit_) return 0;
     ++counts.sweeps;
     counts.applied += marked;
     return marked;
@@ -105,7 +107,7 @@ public:
     if (double(vertices.size()) > max_share_of_holes * double(mesh_.number_of_vertices())) {
       fill(execution_, codes_, mesh_.number_of_faces(), std::uint8_t(0));
       const Restructuring plan(execution_, mesh_, codes_);
-      place_vertices(plan);
+      place_vertices(plan, all_kernels);
       return commit(plan);
     }
     const auto faces = pack(execution_, mesh_.number_of_faces(), [&](std::size_t f) {
@@ -127,6 +129,8 @@ private:
   static constexpr std::uint8_t for_shape = 8; // added to marks that are taken back so that no face gets too thin
   static constexpr double max_half = 0.8;  // of an edge: the middle of a bulging arc lies well within
   static constexpr double max_share_of_holes = 0.01; // that are filled in series
+  static constexpr double max_share_in_place = 0.02; // of new vertices: what is new gets far from its neighbours
+  static constexpr double room_for_splits = 1.25;    // in place, in vertices
   static constexpr double expected_excess = 1.2;   // vertices beyond those of a mesh of equilateral unit triangles
   static constexpr std::size_t max_growth = 100;   // that is prepared for: metrics may ask for anything
 
@@ -137,7 +141,57 @@ private:
     return std::size_t((std::min)(limit, expected_excess * limit_->vertices_of_area()));
   }
 
-  bool is_beyond_limit(const Restructuring& plan)
+  /// Whether there is so little to split that the rest better stays where it is, and room for it. What faces cover
+  /// within a tolerance goes by the numbers of a rewrite.
+  bool may_split_in_place(std::size_t marked) const
+  {
+    return is_local_ && !surface_.tolerance && double(marked) <= max_share_in_place * double(mesh_.number_of_vertices()) &&
+           mesh_.number_of_vertices() + marked <= surface_.points.capacity();
+  }
+
+  /// Kernels that look again where nothing was split.
+  std::uint8_t kept_activity() const
+  {
+    return std::uint8_t(all_kernels & ~(is_waiting_ ? 0u : unsigned(Activity::refine)));
+  }
+
+  void split_in_place()
+  {
+    const Splitting plan(execution_, mesh_, codes_, marked_faces_);
+    if ((is_at_limit_ = is_beyond_limit(plan))) return;
+    choose_diagonals();
+    const std::uint8_t kept = kept_activity();
+    for_each_index(execution_, mesh_.number_of_vertices(), [&](std::size_t v) {
+      surface_.active[v] = std::uint8_t(surface_.active[v] & kept);
+    });
+    surface_.resize_vertices(plan.number_of_vertices());
+    for_each_marked_face([&](Index f) {
+      for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+        if (codes_[f] != 0) activate(surface_, mesh_.corner[h]);
+        if (!is_marked(h) || !mesh_.is_edge_owner(h)) continue;
+        const Index m = plan.midpoint(h);
+        surface_.set(m, middle(h));
+        surface_.origin[m] = no_index;
+        surface_.active[m] = all_kernels;
+      }
+    });
+    plan.apply(execution_, mesh_);
+  }
+
+  void rewrite()
+  {
+    const Restructuring plan(execution_, mesh_, codes_);
+    if ((is_at_limit_ = is_beyond_limit(plan))) return;
+    if (expected_vertices_ == 0) expected_vertices_ = expected_number_of_vertices();
+    if (is_local_)
+      expected_vertices_ = (std::max)(expected_vertices_, std::size_t(room_for_splits * plan.number_of_vertices()));
+    choose_diagonals();
+    place_vertices(plan, kept_activity());
+    commit(plan);
+  }
+
+  template <class Plan>
+  bool is_beyond_limit(const Plan& plan)
   {
     if (!limit_) limit_.emplace(execution_, surface_);
     return plan.number_of_faces() > max_number_of_faces ||
@@ -173,8 +227,14 @@ private:
     resize_and_forget(taken_back_, codes_.size());
     for_each_face([&](Index f) {
       for (Index i = 0; i < 3; ++i)
-        if (!mesh_.is_protected(3 * f + i) && is_too_long(3 * f + i)) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
+        if (is_candidate(3 * f + i) && is_too_long(3 * f + i)) codes_[f] = std::uint8_t(codes_[f] | 1u << i);
     });
+  }
+
+  bool is_candidate(Index h) const
+  {
+    const auto is_changed = [&](Index v) { return is_active(surface_, v, Activity::refine); };
+    return !mesh_.is_protected(h) && (!is_local_ || is_changed(mesh_.source(h)) || is_changed(mesh_.target(h)));
   }
 
   bool is_too_long(Index h) const
@@ -333,8 +393,9 @@ private:
     return {vertex_of_label(f, labels[0]), vertex_of_label(f, labels[1]), vertex_of_label(f, labels[2])};
   }
 
-  /// Fills the new vertex arrays with the vertices that stay and the middles of marked edges.
-  void place_vertices(const Restructuring& plan)
+  /// Fills the new vertex arrays with the vertices that stay and the middles of marked edges. Only kernels of `kept` look
+  /// again where nothing is split.
+  void place_vertices(const Restructuring& plan, std::uint8_t kept)
   {
     const std::size_t n = plan.number_of_vertices();
     resize_and_forget(points_, n, expected_vertices_);
@@ -348,7 +409,7 @@ private:
         const Index v = mesh_.corner[h];
         if (mesh_.outgoing[v] == h)
           write(plan.vertex(v), surface_.vertex(v), surface_.origin[v],
-                is_at_split(v) ? all_kernels : surface_.active[v]);
+                is_at_split(v) ? all_kernels : std::uint8_t(surface_.active[v] & kept));
         if (plan.is_split(h) && mesh_.is_edge_owner(h)) write(plan.midpoint(h), middle(h), no_index, all_kernels);
       }
     });
@@ -524,7 +585,7 @@ private:
   Refinement_thresholds thresholds_;
   std::size_t expected_vertices_ = 0; // for all sweeps
   std::optional<Limit_of_refinement> limit_; // the same
-  bool is_at_limit_ = false, is_waiting_ = false;
+  bool is_at_limit_ = false, is_waiting_ = false, is_local_ = false;
   Buffer<std::uint8_t> codes_, taken_back_, blocked_;
   std::vector<Index> marked_faces_; // of the last sweep, before marks were taken back
   Buffer<Index> offsets_, first_middle_; // in `middles_`: of each of these, and by face

@@ -146,16 +146,17 @@ private:
            });
   }
 
-  /// The neighbours may move now; the other kernels look again only where the move left something for them.
+  /// The neighbours may move now, and edges around be split where they could not be before; the other kernels look again
+  /// only where the move left something for them.
   void activate_around(const Placed_vertex<Metric>& moved)
   {
-    constexpr std::uint8_t relocate = std::uint8_t(Activity::relocate);
-    std::uint8_t of_all = relocate;
+    constexpr std::uint8_t always = std::uint8_t(Activity::relocate) | std::uint8_t(Activity::refine);
+    std::uint8_t of_all = always;
     if (moved.location.kind == Vertex_class::curve) of_all |= std::uint8_t(Activity::simplify);
     star.for_each_face([&](const Neighbor& a, const Neighbor& b) {
-      const std::uint8_t kernels = std::uint8_t(relocate | kernels_with_work(moved, a, b));
+      const std::uint8_t kernels = std::uint8_t(always | kernels_with_work(moved, a, b));
       activate(surface, a.vertex, kernels);
-      if (kernels != relocate || !star.is_closed) activate(surface, b.vertex, kernels); // else b is the next a
+      if (kernels != always || !star.is_closed) activate(surface, b.vertex, kernels); // else b is the next a
       of_all |= kernels;
     });
     activate(surface, vertex, of_all);

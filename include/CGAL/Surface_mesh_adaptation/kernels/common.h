@@ -17,7 +17,7 @@ namespace CGAL {
 namespace Surface_mesh_adaptation {
 
 /// A bit for each kernel in `Adapted_surface::active`: whether it has to look at the vertex again.
-enum class Activity : std::uint8_t { simplify = 1, swap = 2, relocate = 4, regularize = 8 };
+enum class Activity : std::uint8_t { simplify = 1, swap = 2, relocate = 4, regularize = 8, refine = 16 };
 
 /// Passes of claims at the borders of blocks; what is left then is examined by the next sweep.
 constexpr std::uint32_t max_border_rounds = 8;

@@ -6,6 +6,7 @@
 #define CGAL_SURFACE_MESH_ADAPTATION_MESH_LOCALITY_H
 
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
+#include <CGAL/Surface_mesh_adaptation/execution/sort.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
 
@@ -49,51 +50,6 @@ inline std::uint64_t hilbert_key(std::array<std::uint32_t, 3> x)
   std::uint32_t parity = x[2] >> 1; // of all bits from there on
   for (const int shift : {1, 2, 4, 8, 16}) parity ^= parity >> shift;
   return spread_bits(x[0] ^ parity) << 2 | spread_bits(x[1] ^ parity) << 1 | spread_bits(x[2] ^ parity);
-}
-
-/// How many of the first `n` of two sorted lists merged are of the first one, which has `size`, the second `other_size`.
-/// \pre no two are equal
-template <class Iterator, class Less>
-std::size_t share_of_first(std::size_t n, Iterator first, std::size_t size, Iterator second, std::size_t other_size,
-                           const Less& less)
-{
-  std::size_t low = n - (std::min)(n, other_size), high = (std::min)(n, size);
-  while (low < high) {
-    const std::size_t i = (low + high) / 2;
-    if (less(first[std::ptrdiff_t(i)], second[std::ptrdiff_t(n - i - 1)])) low = i + 1;
-    else high = i;
-  }
-  return low;
-}
-
-/// The numbers `0 .. n - 1` sorted by key, ties by number. Runs are sorted in parallel, then merged pairwise, each piece
-/// of what comes out by itself.
-template <class Execution>
-std::vector<Index> sorted_by_key(const Execution& execution, const std::vector<std::uint64_t>& key)
-{
-  const std::size_t n = key.size();
-  std::vector<Index> order(n), merged(n);
-  const auto less = [&](Index a, Index b) { return key[a] < key[b] || (key[a] == key[b] && a < b); };
-  const auto at = [](std::vector<Index>& v, std::size_t i) { return v.begin() + std::ptrdiff_t(i); };
-  constexpr std::size_t run_length = 1 << 12;
-  for_each_chunk(execution, n, run_length, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) order[i] = Index(i);
-    std::sort(at(order, begin), at(order, end), less);
-  });
-  for (std::size_t length = run_length; length < n; length *= 2) {
-    for_each_chunk(execution, n, run_length, [&](std::size_t, std::size_t begin, std::size_t end) {
-      const std::size_t base = begin - begin % (2 * length), middle = (std::min)(base + length, n);
-      const std::size_t last = (std::min)(middle + length, n);
-      const auto share = [&](std::size_t i) {
-        return share_of_first(i - base, at(order, base), middle - base, at(order, middle), last - middle, less);
-      };
-      const std::size_t i = share(begin), j = share(end);
-      std::merge(at(order, base + i), at(order, base + j), at(order, middle + begin - base - i),
-                 at(order, middle + end - base - j), at(merged, begin), less);
-    });
-    order.swap(merged);
-  }
-  return order;
 }
 
 /// The place in `order` of each number below `n` that is there.

@@ -99,6 +99,57 @@ private:
   }
 };
 
+/// A face that is cut, and what its children are joined to.
+struct Cut_face
+{
+  std::uint8_t code = 0;
+  std::uint8_t numbered = 0;     ///< a bit for each of the labels of vertices that are numbered with this face
+  std::array<Index, 6> vertex{}; ///< of each label of `Split_pattern`
+  std::array<Index, 6> twin{};   ///< of half `k % 2` of edge `k / 2`
+};
+
+/// Writes the children of the face `f` of `mesh` into `result`, which may be the same. `number(i)` is that of their
+/// halfedge `i`.
+template <class Number>
+void write_children(const Mesh_view& mesh, Index f, const Cut_face& cut, const Number& number, Mesh_view& result)
+{
+  const Split_pattern& pattern = Split_pattern::of(cut.code);
+  const std::array<Index, 3> curve{mesh.curve[3 * f], mesh.curve[3 * f + 1], mesh.curve[3 * f + 2]};
+  const Index face_label = mesh.has_labels() ? mesh.label[f] : no_index;
+  for (int i = 0; i < 3 * pattern.number_of_children; ++i) {
+    const Index h = number(i);
+    result.corner[h] = cut.vertex[pattern.child[std::size_t(i / 3)][std::size_t(i % 3)]];
+    const int t = pattern.twin[std::size_t(i)], outer = t - Split_pattern::outer;
+    result.twin[h] = outer < 0 ? number(t) : cut.twin[std::size_t(outer)];
+    result.curve[h] = outer < 0 ? no_curve : curve[std::size_t(outer / 2)];
+    if (mesh.has_labels() && i % 3 == 0) result.label[h / 3] = face_label;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    if ((cut.numbered >> i & 1) != 0) result.outgoing[cut.vertex[i]] = number(pattern.half[i][0]);
+    if ((cut.numbered >> (3 + i) & 1) != 0) result.outgoing[cut.vertex[3 + i]] = number(pattern.half[i][1]);
+  }
+}
+
+/// `f` cut by `code`. `corner(h)` is the number of the vertex at `h`, `midpoint(h)` that on the edge of `h`, and `twin(h, k)`
+/// that of half `k` of `h`, a halfedge of a face beside `f`.
+template <class Corner, class Midpoint, class Twin>
+Cut_face cut_face(const Mesh_view& mesh, Index f, std::uint8_t code, const Corner& corner, const Midpoint& midpoint,
+                  const Twin& twin)
+{
+  Cut_face cut;
+  cut.code = code;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Index h = 3 * f + Index(i);
+    const bool is_split = (code >> i & 1) != 0;
+    cut.vertex[i] = corner(h);
+    if (is_split) cut.vertex[3 + i] = midpoint(h);
+    for (std::size_t k = 0; k < 2; ++k) cut.twin[2 * i + k] = mesh.is_border(h) ? no_index : twin(mesh.twin[h], 1 - k);
+    const unsigned bits = (mesh.outgoing[mesh.corner[h]] == h ? 1u : 0u) | (is_split && mesh.is_edge_owner(h) ? 8u : 0u);
+    cut.numbered = std::uint8_t(cut.numbered | bits << i);
+  }
+  return cut;
+}
+
 } // namespace internal
 
 class Restructuring
@@ -179,38 +230,13 @@ private:
 
   void write_children(Mesh_view& result, Index f) const
   {
-    const auto& pattern = internal::Split_pattern::of(codes_[f]);
-    std::array<Index, 6> id{};
-    for (int i = 0; i < 3; ++i) {
-      const Index h = 3 * f + Index(i);
-      id[std::size_t(i)] = vertex(mesh_.corner[h]);
-      if (is_split(h)) id[std::size_t(3 + i)] = midpoint(h);
-    }
+    const internal::Cut_face cut = internal::cut_face(
+      mesh_, f, codes_[f], [&](Index h) { return vertex(mesh_.corner[h]); }, [&](Index h) { return midpoint(h); },
+      [&](Index h, std::size_t k) {
+        return 3 * face_offset_[h / 3] + internal::Split_pattern::of(codes_[h / 3]).half[h % 3][k];
+      });
     const Index first = 3 * face_offset_[f];
-    if (mesh_.has_labels()) std::fill_n(result.label.begin() + first / 3, pattern.number_of_children, mesh_.label[f]);
-    for (int i = 0; i < 3 * pattern.number_of_children; ++i) {
-      const Index h = first + Index(i);
-      result.corner[h] = id[pattern.child[std::size_t(i / 3)][std::size_t(i % 3)]];
-      const int t = pattern.twin[std::size_t(i)];
-      const bool is_outer = t >= internal::Split_pattern::outer;
-      result.twin[h] = is_outer ? outer_twin(f, t - internal::Split_pattern::outer) : first + Index(t);
-      result.curve[h] = is_outer ? mesh_.curve[3 * f + Index((t - internal::Split_pattern::outer) / 2)] : no_curve;
-    }
-    for (int i = 0; i < 3; ++i) {
-      const Index h = 3 * f + Index(i);
-      if (owns_corner(h)) result.outgoing[id[std::size_t(i)]] = first + pattern.half[std::size_t(i)][0];
-      if (owns_midpoint(h)) result.outgoing[id[std::size_t(3 + i)]] = first + pattern.half[std::size_t(i)][1];
-    }
-  }
-
-  /// New twin of the halfedge on half `edge_and_half % 2` of edge `edge_and_half / 2` of face `f`.
-  Index outer_twin(Index f, int edge_and_half) const
-  {
-    const Index h = 3 * f + Index(edge_and_half / 2), t = mesh_.twin[h];
-    if (t == no_index) return no_index;
-    const Index g = t / 3;
-    const std::size_t which = std::size_t(1 - edge_and_half % 2);
-    return 3 * face_offset_[g] + internal::Split_pattern::of(codes_[g]).half[t % 3][which];
+    internal::write_children(mesh_, f, cut, [&](int i) { return first + Index(i); }, result);
   }
 
   const Mesh_view& mesh_;
