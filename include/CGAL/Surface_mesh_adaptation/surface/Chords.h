@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How coarse the chords are that a tessellation puts in place of curved surfaces.
+// How coarse the chords are that a tessellation puts in place of curved surfaces, and whether they are chords at all.
 
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_SURFACE_CHORDS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_SURFACE_CHORDS_H
@@ -71,6 +71,51 @@ Chords chords_below(const Execution& execution, const Mesh_view& mesh, const std
     const Chords c = chords_at(mesh, points, facets, marks, Index(h), even);
     return c.turn < turn ? c : Chords();
   }, [](const Chords& a, const Chords& b) { return a + b; });
+}
+
+/// What a tessellation bends at its edges: lengths times angles.
+struct Bends
+{
+  double all = 0;
+  double convex = 0;
+  double smooth = 0;  ///< between facets that are no planes, where no edge is marked
+  double regular = 0; ///< of these, at chords
+
+  Bends operator+(const Bends& b) const
+  {
+    return {all + b.all, convex + b.convex, smooth + b.smooth, regular + b.regular};
+  }
+
+  /// Whether its chords are chance. Of what is smooth in tessellations of a CAD kernel .65 and more is at chords, of coarse
+  /// boxes with round edges .34, of others that are not convex .11; convex hulls, which bridge hollows, and what a
+  /// decimation leaves of them mostly have less.
+  bool are_chords_chance() const
+  {
+    constexpr double least_share = 0.1, least_share_if_convex = 0.33, least_convex = 0.95, least_smooth = 0.25;
+    const double least = convex >= least_convex * all ? least_share_if_convex : least_share;
+    return regular > 0 && regular < least * smooth && smooth >= least_smooth * all;
+  }
+};
+
+inline Bends bend_at(const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets,
+                     const std::vector<std::uint8_t>& marks, Index h)
+{
+  const Index f = Mesh_view::face(h), g = Mesh_view::face(mesh.twin[h]);
+  const Vector_3 edge = points[mesh.target(h)] - points[mesh.source(h)], &n = facets.at(f).normal, &m = facets.at(g).normal;
+  const double bend = edge.norm() * angle_between(n, m);
+  const bool is_smooth = marks[h] == 0 && !facets.is_plane(f) && !facets.is_plane(g);
+  const bool is_regular = is_smooth && chords_at(mesh, points, facets, marks, h, {}).number > 0;
+  return {bend, n.cross(m).dot(edge) > 0 ? bend : 0, is_smooth ? bend : 0, is_regular ? bend : 0};
+}
+
+template <class Execution>
+Bends bends(const Execution& execution, const Mesh_view& mesh, const std::vector<Vector_3>& points, const Facets& facets,
+            const std::vector<std::uint8_t>& marks)
+{
+  return reduce(execution, mesh.number_of_halfedges(), Bends(), [&](std::size_t h) {
+    const bool counts = !mesh.is_border(Index(h)) && mesh.is_edge_owner(Index(h));
+    return counts ? bend_at(mesh, points, facets, marks, Index(h)) : Bends();
+  }, [](const Bends& a, const Bends& b) { return a + b; });
 }
 
 } // namespace internal

@@ -8,6 +8,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/bounding_box.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Chords.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Facet_edges.h>
@@ -48,6 +49,9 @@ constexpr double rounding_of_angles = 0.01;
 
 /// In degrees: chords of something curved turn by no less from one to the next.
 constexpr double least_turn_of_chords = 1;
+
+/// In diagonals: where chords are chance, the largest of them says little.
+constexpr double largest_sag_of_chance = 0.002;
 
 /// Of the angle of ridges: where most edges turn by less than this, coarser chords are none.
 constexpr double largest_part_of_fine_chords = 2.0 / 3;
@@ -247,6 +251,9 @@ private:
   {
     const Chords chords = chords_below(execution, mesh_, points_, facets_, is_feature_, CGAL_PI);
     if (chords.number > 0) facets_.sag = chords.sag;
+    if (!bends(execution, mesh_, points_, facets_, is_feature_).are_chords_chance()) return;
+    facets_.are_decimated = true;
+    facets_.sag = (std::min)(facets_.sag, largest_sag_of_chance * diagonal_of_bounding_box(points_));
   }
 
   /// Marks edges between facets that are coarser than all chords, in angle and in width: whatever a tessellation keeps to,
