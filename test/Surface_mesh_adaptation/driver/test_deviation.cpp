@@ -4,6 +4,7 @@
 
 #include "analytic_surfaces.h"
 #include "brute_force_intersections.h"
+#include "checks.h"
 #include "decimated_meshes.h"
 #include "distances.h"
 #include "near_sheets.h"
@@ -15,6 +16,7 @@
 #include <CGAL/Surface_mesh_adaptation/distance/Face_deviations.h>
 #include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
 #include <CGAL/Surface_mesh_adaptation/fields/Graded_bounds.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Refinement.h>
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 
@@ -22,6 +24,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -112,6 +116,62 @@ TEST(Graded_bounds, that_are_tightened_change_the_metrics_of_all_vertices_that_t
       EXPECT_EQ(is_changed[v] != 0, after[v].inverse_size != before[v].inverse_size) << v;
     }
   }
+}
+
+// Splits of a part
+
+std::vector<Vector_3> sorted_points(const Surface& surface)
+{
+  std::vector<Vector_3> points(surface.points.begin(), surface.points.end());
+  std::sort(points.begin(), points.end(), [](const Vector_3& p, const Vector_3& q) {
+    return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+  });
+  return points;
+}
+
+/// Asks for edges of half of the length at a few places, and lets kernels look at these and their neighbours alone.
+void tighten_some_places(Surface& surface)
+{
+  Random random(10);
+  std::vector<double> factors(surface.points.size(), 1);
+  for (int i = 0; i < 3; ++i) factors[random.below(factors.size())] = 0.02;
+  const auto is_changed = surface.tighten_metric(sequential, factors, {0.01, 0, 1.3});
+  std::fill(surface.active.begin(), surface.active.end(), std::uint8_t(0));
+  for (SMA::Index v = 0; v < is_changed.size(); ++v) {
+    if (is_changed[v] == 0) continue;
+    SMA::activate(surface, v);
+    surface.mesh.for_each_neighbor(v, [&](SMA::Index w) { SMA::activate(surface, w); });
+  }
+}
+
+std::size_t split_all(Surface& surface, bool is_local)
+{
+  SMA::Refinement refinement(sequential, surface);
+  refinement.work_locally(is_local);
+  SMA::Sweep_counts counts;
+  while (refinement.sweep(0, counts) > 0) {}
+  return counts.applied;
+}
+
+TEST(Refinement, that_works_locally_splits_what_one_of_everything_does)
+{
+  On_triangles everywhere(shapes::sphere(4, 0.3)), here(shapes::sphere(4, 0.3));
+  for (On_triangles* sphere : {&everywhere, &here}) tighten_some_places(sphere->surface);
+  const std::size_t split = split_all(everywhere.surface, false);
+  EXPECT_GT(split, 50u);
+  EXPECT_EQ(split_all(here.surface, true), split);
+  EXPECT_TRUE(checks::is_valid(here.surface.mesh));
+  EXPECT_EQ(sorted_points(here.surface), sorted_points(everywhere.surface));
+}
+
+TEST(Refinement, that_works_locally_does_not_look_where_nothing_has_changed)
+{
+  On_triangles sphere(shapes::sphere(4, 0.3));
+  Surface& surface = sphere.surface;
+  tighten_some_places(surface);
+  std::fill(surface.active.begin(), surface.active.end(), std::uint8_t(0));
+  EXPECT_EQ(split_all(surface, true), 0u);
+  EXPECT_GT(split_all(surface, false), 50u);
 }
 
 // Distances of faces
