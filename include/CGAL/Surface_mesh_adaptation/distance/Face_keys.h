@@ -7,6 +7,7 @@
 
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
+#include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
 #include <CGAL/Surface_mesh_adaptation/tasks/independent_set.h>
 
 #include <atomic>
