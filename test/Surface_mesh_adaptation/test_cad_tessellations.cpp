@@ -1781,6 +1781,18 @@ TEST(Cad_tessellations, are_adapted_alike_by_all_policies)
   });
 }
 
+Surface_mesh::Point in_single_precision(const Vector_3& p)
+{
+  return {double(float(p[0])), double(float(p[1])), double(float(p[2]))};
+}
+
+Soup convex_hull(const std::vector<Surface_mesh::Point>& points)
+{
+  Surface_mesh hull;
+  CGAL::convex_hull_3(points.begin(), points.end(), hull);
+  return shapes::soup(hull);
+}
+
 /// The convex hull of a few discs with rounded rims, as of links of robots. Coordinates are of single precision.
 Soup random_hull(Random& random)
 {
@@ -1793,14 +1805,12 @@ Soup random_hull(Random& random)
       for (std::size_t i = 0; i < n; ++i) {
         const double a = 2 * pi * (double(i) + random.real(-0.3, 0.3)) / double(n), b = row * pi / 4;
         const Vector_3 p = center + (r + rim * std::cos(b)) * (std::cos(a) * x + std::sin(a) * y) + rim * std::sin(b) * axis;
-        points.emplace_back(double(float(p[0])), double(float(p[1])), double(float(p[2])));
+        points.push_back(in_single_precision(p));
       }
   };
   const std::size_t discs = 3 + random.below(4);
   for (std::size_t i = 0; i < discs; ++i) disc(10 + random.below(20));
-  Surface_mesh hull;
-  CGAL::convex_hull_3(points.begin(), points.end(), hull);
-  return shapes::soup(hull);
+  return convex_hull(points);
 }
 
 /// The convex hull of a few cylinders of coarse chords along the axes, of which many faces are coplanar.
@@ -1816,14 +1826,12 @@ Soup random_hull_of_cylinders(Random& random)
       for (std::size_t i = 0; i < n; ++i) {
         const double a = 2 * pi * double(i) / double(n);
         const Vector_3 p = center + r * (std::cos(a) * x + std::sin(a) * y) + side * height * axis;
-        points.emplace_back(double(float(p[0])), double(float(p[1])), double(float(p[2])));
+        points.push_back(in_single_precision(p));
       }
   };
   const std::size_t cylinders = 3 + random.below(4);
   for (std::size_t i = 0; i < cylinders; ++i) cylinder(8 + random.below(12));
-  Surface_mesh hull;
-  CGAL::convex_hull_3(points.begin(), points.end(), hull);
-  return shapes::soup(hull);
+  return convex_hull(points);
 }
 
 /// How far the vertices of a mesh are from a convex polyhedron: from the planes of its faces, which is less than from

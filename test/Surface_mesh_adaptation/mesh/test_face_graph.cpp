@@ -4,7 +4,6 @@
 
 #include "checks.h"
 #include "mesh/views.h"
-#include "policies.h"
 #include "shape_meshes.h"
 
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>
@@ -21,7 +20,6 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
