@@ -34,7 +34,7 @@ struct Mesh_statistics
 /// One call of a kernel.
 struct Kernel_report
 {
-  std::string kernel;              ///< "refine", "simplify", "swap", "regularize", "relocate" or "fit"
+  std::string kernel;              ///< "refine", "simplify", "swap", "regularize", "relocate", "fit" or "mend"
   std::size_t round = 0;  ///< from 0
   std::size_t sweeps = 0;  ///< how often it went through the mesh
   std::size_t candidates = 0;      ///< elements that were examined

@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/driver/mesh_statistics.h>
 #include <CGAL/Surface_mesh_adaptation/fields/gradation.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Fitting.h>
+#include <CGAL/Surface_mesh_adaptation/kernels/Mending.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Refinement.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Regularization.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Relocation.h>
@@ -76,6 +77,7 @@ public:
       }
     const bool is_current = aims.number_of_vertices == 0 && !is_fitted && !is_restored_;
     report_.final = is_current ? current() : mesh_statistics(execution_, surface_);
+    if (rounds > 0 && surface_.constraints != nullptr && !is_in_vain()) mend();
     warn(aims.deviation);
     report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report_;
@@ -421,6 +423,16 @@ private:
       // vertices cross bends of the input, so faces come to see others
       return counts.applied += fitting.sweep(steps_of_fit(shape_weight), [&] { points.sample(execution_); });
     });
+  }
+
+  /// In the end, where faces are left that have no height.
+  void mend()
+  {
+    if (!(report_.final.min_quality < min_quality_of_mended)) return;
+    Mending mending(surface_, *surface_.constraints);
+    if (run_kernel("mend", 1, [&](Sweep_counts& counts) { return mending.run(execution_, counts); }) == 0) return;
+    refinement_.compact();
+    report_.final = mesh_statistics(execution_, surface_);
   }
 
   /// With less weight vertices go farther, and need more steps for that.

@@ -248,6 +248,7 @@ private:
     const auto attempt = [&] {
       surface.emplace(execution_, reference, background, tolerance_ ? &*tolerance_ : nullptr);
       surface->creases = &*creases_;
+      if (!avoids_intersections()) surface->constraints = &values_->features();
       if constexpr (may_avoid_intersections)
         if (guard_) guard(*surface);
       return adapt(*surface);

@@ -60,6 +60,7 @@ public:
   std::optional<Tolerance_guard<Reference>> tolerance; ///< if there is one
   internal::Self_intersection_guard* intersections = nullptr; ///< what keeps the mesh from them, if anything
   internal::Late_creases* creases = nullptr; ///< what is told where faces stay too far from the surface, if anything
+  const Feature_parameters* constraints = nullptr; ///< what the user asks of the input, if features may meet in the result
   bool is_on_facets = false; ///< whether vertices on faces of the input that are smaller than the metric asks for are put
                              ///< on these, not on patches: cheap, and most moves are not the last ones
   std::size_t max_number_of_vertices = largest_number_of_vertices(std::size_t(-1)); ///< beyond which it is not refined

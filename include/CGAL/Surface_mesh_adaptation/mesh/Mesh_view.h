@@ -36,6 +36,9 @@ constexpr std::size_t max_number_of_faces = std::numeric_limits<std::int32_t>::m
 /// Mark of a halfedge that lies on no feature curve.
 constexpr Index no_curve = ~Index(0);
 
+/// Mark of a halfedge that lies where curves have met that were too near to each other, in the result only.
+constexpr Index merged_curve = no_curve - 1;
+
 /// Kinds of feature curves, which are numbered kind by kind. Creases part smooth sectors, all others lie inside of them:
 /// drawn ones on the surface, where that is, and borders of planes, which have a shape of their own as creases do. The edges
 /// of those that are protected stay in one piece.

@@ -15,16 +15,25 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// The feature halfedge that bounds the smooth sector of the halfedge `h` at its source, clockwise; `no_index` if there is
-/// none.
+/// The halfedge on a curve that bounds the smooth sector of the halfedge `h` at its source, clockwise; `no_index` if there
+/// is none.
 inline Index first_of_sector(const Mesh_view& mesh, Index h)
 {
-  for (Index g = h; !mesh.is_feature(g);) {
+  Index g = h;
+  do {
+    if (mesh.curve[g] < merged_curve) return g;
     g = mesh.rotated_cw(g);
-    if (g == h) return no_index;
-    if (mesh.is_feature(g)) return g;
-  }
-  return h;
+  } while (g != h && g != no_index);
+  return no_index;
+}
+
+/// Whether the halfedge `h`, on `curve`, leads along it.
+template <class Surface>
+bool leads_forward(const Surface& surface, Index curve, Index h)
+{
+  const auto& at = surface.locations;
+  const auto arc = surface.reference().arc(curve, at[surface.mesh.source(h)], at[surface.mesh.target(h)]);
+  return arc.second > arc.first;
 }
 
 /// The location of the source of `h` in a face of the reference on the side of the face of `h`, its first one clockwise: on an
@@ -38,11 +47,11 @@ Location location_in_sector(const Surface& surface, Index h)
   const Location& l = surface.locations[v];
   if (l.kind == Vertex_class::smooth) return l;
   const Index g = first_of_sector(mesh, h);
-  if (g == no_index) return location_on_edge(reference.mesh.outgoing[l.cell], 0);
-  const Feature_curve& c = reference.features.curves[mesh.curve[g]];
-  const auto arc = reference.arc(mesh.curve[g], l, surface.locations[mesh.target(g)]);
-  const bool is_forward = arc.second > arc.first;
   const bool is_corner = l.kind == Vertex_class::corner;
+  if (g == no_index && is_corner) return location_on_edge(reference.mesh.outgoing[l.cell], 0);
+  const Index curve = is_corner ? mesh.curve[g] : l.cell;
+  const Feature_curve& c = reference.features.curves[curve];
+  const bool is_forward = g == no_index || leads_forward(surface, curve, g);
   const std::size_t i = !is_corner ? c.segment(l.u) : is_forward ? 0 : c.vertices.size() - 2;
   const double t = !is_corner ? c.parameter(i, l.u) : is_forward ? 0 : 1;
   const Index a = c.vertices[i], b = c.vertices[i + 1];
