@@ -92,6 +92,13 @@ public:
     }, [](double a, double b) { return a + b; });
   }
 
+  /// Of the faces, those that are farther away than is allowed.
+  template <class Execution>
+  std::size_t number_above(const Execution& execution) const
+  {
+    return count_if(execution, deviations_.size(), [&](std::size_t f) { return deviations_[f] > allowed(); });
+  }
+
   /// What at most `n` faces exceed.
   double nth_largest(std::size_t n) const
   {

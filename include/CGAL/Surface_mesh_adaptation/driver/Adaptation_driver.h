@@ -178,11 +178,18 @@ private:
       least = (std::min)(least, report_.deviation);
       least_excess = (std::min)(least_excess, excess);
       const int most_idle = least_excess < little_excess * first_excess ? idle_corrections_of_little : idle_corrections;
-      if (idle >= most_idle || !correct(deviations, most_vertices)) break;
+      if (idle >= most_idle || (idle > 0 && is_exhausted(deviations)) || !correct(deviations, most_vertices)) break;
     }
     work_everywhere();
     if (report_.deviation > of_best) restore(*best, of_best);
     mark_creases(deviations, asked);
+  }
+
+  /// Whether the last correction changed sizes at few vertices for the faces that are too far away: around most of these they are as
+  /// small as they may be.
+  bool is_exhausted(const Face_deviations<Surface>& deviations) const
+  {
+    return double(extent_) < vertices_around_face * double(deviations.number_above(execution_));
   }
 
   /// Where faces stay too far away, creases may be missing.
@@ -507,6 +514,7 @@ private:
   static constexpr std::size_t rounds_of_correction = 3;
   static constexpr int max_corrections_of_deviation = 40, idle_corrections = 4, idle_corrections_of_little = 12;
   static constexpr double little_excess = 0.05; // of what it was at first
+  static constexpr double vertices_around_face = 2; // at least, whose sizes change where they can
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   static constexpr double largest_of_equals = 1.05; // of the largest deviations of two meshes
   static constexpr double worthwhile_excess = 0.9;  // what is left of it after a correction that gained something

@@ -80,10 +80,11 @@ struct Bends
   double convex = 0;
   double smooth = 0;  ///< between facets that are no planes, where no edge is marked
   double regular = 0; ///< of these, at chords
+  Chords chords;
 
   Bends operator+(const Bends& b) const
   {
-    return {all + b.all, convex + b.convex, smooth + b.smooth, regular + b.regular};
+    return {all + b.all, convex + b.convex, smooth + b.smooth, regular + b.regular, chords + b.chords};
   }
 
   /// Whether its chords are chance. Of what is smooth in tessellations of a CAD kernel .65 and more is at chords, of coarse
@@ -104,8 +105,8 @@ inline Bends bend_at(const Mesh_view& mesh, const std::vector<Vector_3>& points,
   const Vector_3 edge = points[mesh.target(h)] - points[mesh.source(h)], &n = facets.at(f).normal, &m = facets.at(g).normal;
   const double bend = edge.norm() * angle_between(n, m);
   const bool is_smooth = marks[h] == 0 && !facets.is_plane(f) && !facets.is_plane(g);
-  const bool is_regular = is_smooth && chords_at(mesh, points, facets, marks, h, {}).number > 0;
-  return {bend, n.cross(m).dot(edge) > 0 ? bend : 0, is_smooth ? bend : 0, is_regular ? bend : 0};
+  const Chords chords = chords_at(mesh, points, facets, marks, h, {});
+  return {bend, n.cross(m).dot(edge) > 0 ? bend : 0, is_smooth ? bend : 0, chords.number > 0 ? bend : 0, chords};
 }
 
 template <class Execution>

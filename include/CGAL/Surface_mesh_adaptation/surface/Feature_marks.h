@@ -249,9 +249,9 @@ private:
   template <class Execution>
   void find_sag(const Execution& execution)
   {
-    const Chords chords = chords_below(execution, mesh_, points_, facets_, is_feature_, CGAL_PI);
-    if (chords.number > 0) facets_.sag = chords.sag;
-    if (!bends(execution, mesh_, points_, facets_, is_feature_).are_chords_chance()) return;
+    const Bends found = bends(execution, mesh_, points_, facets_, is_feature_);
+    if (found.chords.number > 0) facets_.sag = found.chords.sag;
+    if (!found.are_chords_chance()) return;
     facets_.are_decimated = true;
     facets_.sag = (std::min)(facets_.sag, largest_sag_of_chance * diagonal_of_bounding_box(points_));
   }
