@@ -189,6 +189,9 @@ TEST(Face_deviations, see_faces_above_the_surface_and_vertices_of_the_input_belo
   deviations.update(sequential);
   EXPECT_GT(deviations.largest(sequential), 0.02);
   for (const SMA::Index f : surface.faces_around(v)) EXPECT_GT(deviations[f], 0.01) << f;
+  std::size_t above = 0;
+  for (SMA::Index f = 0; f < surface.mesh.number_of_faces(); ++f) above += deviations[f] > deviations.allowed() ? 1 : 0;
+  EXPECT_EQ(deviations.number_above(sequential), above);
   EXPECT_GT(deviations.nth_largest(0), deviations.nth_largest(surface.mesh.number_of_faces() - 1));
   EXPECT_EQ(deviations.nth_largest(surface.mesh.number_of_faces()), 0);
 }
