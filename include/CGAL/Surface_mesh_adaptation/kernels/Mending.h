@@ -13,11 +13,13 @@
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/block_sweep.h>
+#include <CGAL/Surface_mesh_adaptation/metric/metric.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -25,7 +27,7 @@
 namespace CGAL {
 namespace Surface_mesh_adaptation {
 
-/// Quality in the metric below which a face has no height to speak of.
+/// Quality, in space and in the metric, below which a face has no height to speak of.
 constexpr double min_quality_of_mended = 1e-3;
 
 template <class Surface>
@@ -68,7 +70,7 @@ private:
   static constexpr double quality_of_thin = 1e-2;   // of faces that may be as bad as others beside them
   static constexpr double max_share = 0.99;         // of the length of an edge beside such a face
   static constexpr double max_turn = 0.9;           // cosine between a face and those that take its place
-  static constexpr double max_turn_in_line = 0.999; // the same, where a vertex moves along others in line: 2.6 degrees
+  static constexpr double max_offset = 1e-3;        // of a vertex that vanishes from these faces, in edges of a mended one
   static constexpr std::size_t max_operations = 16; // for each face: so this ends
 
   using Triangle = std::array<Index, 3>;
@@ -78,7 +80,13 @@ private:
   double length(Index h) const { return length(mesh_.source(h), mesh_.target(h)); }
 
   Triangle corners(Index f) const { return {mesh_.corner[3 * f], mesh_.corner[3 * f + 1], mesh_.corner[3 * f + 2]}; }
-  double quality(const Triangle& t) const { return surface_.quality(t[0], t[1], t[2]); }
+  /// In space or in the metric, whichever is better: in anisotropic metrics narrow faces may be good, and good ones narrow.
+  double quality(const Triangle& t) const
+  {
+    const Isotropic_metric unit;
+    const double in_space = face_quality(unit, unit, unit, point(t[1]) - point(t[0]), point(t[2]) - point(t[0]));
+    return (std::max)(in_space, surface_.quality(t[0], t[1], t[2]));
+  }
   Vector_3 normal(const Triangle& t) const { return surface_.normal(t[0], t[1], t[2]); }
 
   bool is_degenerate(const Triangle& t) const { return quality(t) < min_quality_of_mended; }
@@ -92,7 +100,8 @@ private:
       std::minmax_element(edges.begin(), edges.end(), [&](Index g, Index h) { return length(g) < length(h); });
     const Index shortest = *range.first, longest = *range.second;
     const bool is_needle = length(shortest) < length_of_needle * length(longest);
-    return (is_needle && collapse(shortest, max_turn)) || swap(longest) || collapse(shortest, max_turn_in_line);
+    const double largest_offset = (std::min)(max_offset * length(longest), largest_change_);
+    return (is_needle && collapse(shortest, largest_offset)) || swap(longest) || collapse(shortest, largest_offset);
   }
 
   /// Gives the longest edge of a face for the other diagonal: the corner across comes onto the edge of the face behind.
@@ -126,14 +135,13 @@ private:
   /// Whether `after` does not turn from `before`, which it takes the place of.
   bool is_kept(const Triangle& before, const Triangle& after) const { return normal(before).dot(normal(after)) > max_turn; }
 
-  /// Collapses an edge where no other face turns by more than `least_cosine` allows.
-  bool collapse(Index h, double least_cosine)
+  /// Collapses an edge where that moves the other faces by no more than `largest_offset`.
+  bool collapse(Index h, double largest_offset)
   {
-    if (length(h) > largest_change_) return false;
     for (const bool source_vanishes : {true, false}) {
       const Mesh_view::Directed_edge e{h, source_vanishes};
       const Index s = mesh_.vanishing_vertex(e);
-      if (!is_free(s) || !mesh_.is_collapsible(e) || !keeps_faces(e, least_cosine)) continue;
+      if (!is_free(s) || !mesh_.is_collapsible(e) || !keeps_faces(e, largest_offset)) continue;
       mesh_.for_each_outgoing(s, [&](Index o) {
         for (const Index g : {o, Mesh_view::previous(o)})
           if (mesh_.is_feature(g)) mesh_.set_curve(g, merged_curve);
@@ -157,15 +165,16 @@ private:
     return result;
   }
 
-  /// Whether the other faces around the vertex that vanishes neither turn nor become degenerate.
-  bool keeps_faces(const Mesh_view::Directed_edge& e, double least_cosine) const
+  /// Whether the other faces around the vertex that vanishes neither turn nor become degenerate, and pass by it that near.
+  bool keeps_faces(const Mesh_view::Directed_edge& e, double largest_offset) const
   {
     const Index s = mesh_.vanishing_vertex(e), d = mesh_.kept_vertex(e);
     bool result = true;
     mesh_.for_each_outgoing(s, [&](Index h) {
       const Triangle before{s, mesh_.target(h), mesh_.apex(h)}, after{d, before[1], before[2]};
       if (before[1] == d || before[2] == d || is_degenerate(before)) return;
-      result = result && !is_degenerate(after) && normal(before).dot(normal(after)) > least_cosine;
+      result = result && !is_degenerate(after) && is_kept(before, after) &&
+               std::abs(normal(after).dot(point(s) - point(d))) <= largest_offset;
     });
     return result;
   }
