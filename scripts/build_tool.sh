@@ -7,7 +7,7 @@ if [ -z "${CMAKE_GENERATOR:-}" ] && command -v ninja >/dev/null; then
   export CMAKE_GENERATOR=Ninja
 fi
 
-# a compiler takes up to 2 GB on code that uses CGAL
+# a compiler takes up to 4 GB on the tests of a room
 # shellcheck disable=SC2034 # it is for who sources this
-jobs=$(awk -v processors="$(nproc)" '/^MemAvailable:/ { fit = int($2 / 2e6) }
+jobs=$(awk -v processors="$(nproc)" '/^MemAvailable:/ { fit = int($2 / 4e6) }
   END { print fit < 1 ? 1 : fit < processors ? fit : processors }' /proc/meminfo)

@@ -25,7 +25,7 @@
 #include <tuple>
 #include <utility>
 
-namespace {
+namespace test_adapt {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::Index;
@@ -1117,4 +1117,4 @@ TEST(Adapt, writes_the_metric_that_it_used)
   }
 }
 
-} // namespace
+} // namespace test_adapt

@@ -24,7 +24,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace {
+namespace test_adapt_inputs {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::Index;
@@ -625,4 +625,4 @@ TEST(Report, is_one_json_object)
   EXPECT_EQ(text.find("nan"), std::string::npos);
 }
 
-} // namespace
+} // namespace test_adapt_inputs

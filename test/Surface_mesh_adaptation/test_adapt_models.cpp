@@ -14,7 +14,7 @@
 #include <set>
 #include <unordered_map>
 
-namespace {
+namespace test_adapt_models {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::Soup;
@@ -108,4 +108,4 @@ TYPED_TEST(Model, takes_sizes_from_a_map_and_gives_the_metric_back)
   }
 }
 
-} // namespace
+} // namespace test_adapt_models

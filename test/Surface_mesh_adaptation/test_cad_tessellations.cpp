@@ -25,7 +25,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_cad_tessellations {
 
 using namespace tessellations_of_tests;
 
@@ -1920,4 +1920,4 @@ TEST(Cad_tessellations, are_no_scans_with_noise)
   }
 }
 
-} // namespace
+} // namespace test_cad_tessellations

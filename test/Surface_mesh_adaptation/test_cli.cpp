@@ -39,7 +39,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace {
+namespace test_cli {
 
 using namespace program;
 
@@ -843,4 +843,4 @@ TEST_F(Adapt_mesh, finds_the_meshes_of_cgal_by_name)
   EXPECT_TRUE(checks::is_manifold(read(path("out.off"))));
 }
 
-} // namespace
+} // namespace test_cli

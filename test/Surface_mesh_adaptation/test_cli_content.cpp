@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_cli_content {
 
 using namespace program;
 
@@ -404,4 +404,4 @@ TEST_F(Content, fields_at_the_vertices)
   expect_failure(2, "in.off out.off --size 1 --attributes in.sol", "--output-attributes");
 }
 
-} // namespace
+} // namespace test_cli_content

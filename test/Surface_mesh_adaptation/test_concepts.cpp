@@ -26,7 +26,7 @@
 #include <tuple>
 #include <vector>
 
-namespace {
+namespace test_concepts {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 namespace parameters = SMA::parameters;
@@ -177,4 +177,4 @@ static_assert(internal::are_read_write_maps<std::tuple<Points, Map<Vertex, int>>
 static_assert(!internal::are_read_write_maps<std::tuple<Points, Constant<Vertex, int>>, Vertex>);
 static_assert(!internal::are_read_write_maps<Points, Vertex>);
 
-} // namespace
+} // namespace test_concepts

@@ -24,7 +24,7 @@
 #include <string>
 #include <thread>
 
-namespace {
+namespace test_limits {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 namespace params = SMA::parameters;
@@ -62,8 +62,6 @@ void expect_refusal(Mesh& mesh, double vertices, std::size_t largest, const Adap
   }
   EXPECT_TRUE(checks::is_identical(shapes::soup(mesh), before));
 }
-
-} // namespace
 
 TEST(Limits, sizes_beyond_what_can_be_held_are_refused)
 {
@@ -129,8 +127,6 @@ TEST(Limits, needles_do_not_run_away)
   }
 }
 
-namespace {
-
 /// Lets a run go on for some time.
 struct Timed_visitor : SMA::Adaptation_visitor
 {
@@ -143,8 +139,6 @@ struct Timed_visitor : SMA::Adaptation_visitor
   void kernel_done(const SMA::Kernel_report&) { ++kernels_done; }
   bool go_on() const { return std::chrono::steady_clock::now() < end; }
 };
-
-} // namespace
 
 TEST(Interruption, a_run_that_is_stopped_at_any_time_leaves_a_valid_mesh)
 {
@@ -196,8 +190,6 @@ TEST(Interruption, is_asked_for_while_tasks_run)
   EXPECT_EQ(done, 8u);
 }
 
-namespace {
-
 template <class Reconstruction>
 void expect_adapted(const Soup& soup, double size)
 {
@@ -208,8 +200,6 @@ void expect_adapted(const Soup& soup, double size)
   EXPECT_GT(report.final.mean_quality, 0.9);
   EXPECT_TRUE(checks::is_manifold(shapes::soup(mesh)));
 }
-
-} // namespace
 
 TEST(Nothing_done, faces_off_the_normals_are_adapted_without_features)
 {
@@ -299,3 +289,5 @@ TEST(Tolerance, is_certified_for_slivers_far_from_the_origin)
     }
   }
 }
+
+} // namespace test_limits

@@ -17,7 +17,7 @@
 #include <map>
 #include <utility>
 
-namespace {
+namespace test_medit {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using medit_files::expect_equal;
@@ -260,4 +260,4 @@ TEST(Medit_conversion, refuses_what_is_no_orientable_manifold)
   refuse(strip + "Triangles\n5\n1 2 3 0\n2 3 4 0\n3 4 5 0\n4 5 1 0\n5 1 2 0\n");
 }
 
-} // namespace
+} // namespace test_medit

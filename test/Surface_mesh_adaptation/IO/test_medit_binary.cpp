@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_medit_binary {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using medit_files::expect_equal;
@@ -260,4 +260,4 @@ TEST(Medit_binary, is_chosen_by_the_extension)
   std::filesystem::remove_all(folder);
 }
 
-} // namespace
+} // namespace test_medit_binary

@@ -26,7 +26,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_repair {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::Index;
@@ -574,4 +574,4 @@ TEST(Repair, makes_a_valid_mesh_of_any_soup)
   }
 }
 
-} // namespace
+} // namespace test_repair

@@ -25,7 +25,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace {
+namespace test_carried_jets {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::Soup;
@@ -340,4 +340,4 @@ TEST(Carried_jets, on_boundaries_are_those_of_the_faces_beside)
   expect_near(m, surface, 7e-3, 0.38, 1e-3); // estimated normals are turned to be across the boundary
 }
 
-} // namespace
+} // namespace test_carried_jets

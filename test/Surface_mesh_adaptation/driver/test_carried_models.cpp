@@ -26,7 +26,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_carried_models {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 namespace params = SMA::parameters;
@@ -304,4 +304,4 @@ TYPED_TEST(Carried, what_is_outside_of_a_range)
   });
 }
 
-} // namespace
+} // namespace test_carried_models

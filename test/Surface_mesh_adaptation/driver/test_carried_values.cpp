@@ -26,7 +26,7 @@
 #include <variant>
 #include <vector>
 
-namespace {
+namespace test_carried_values {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 namespace params = SMA::parameters;
@@ -611,4 +611,4 @@ TEST(Chosen_field, is_the_one_that_a_variant_holds)
                                    adapted(SMA::Curvature_metric_field(0.01))));
 }
 
-} // namespace
+} // namespace test_carried_values

@@ -29,7 +29,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_deviation {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 namespace params = SMA::parameters;
@@ -646,4 +646,4 @@ TEST(Tolerance_of_curvature, holds_beside_caps_at_the_boundary)
   }
 }
 
-} // namespace
+} // namespace test_deviation

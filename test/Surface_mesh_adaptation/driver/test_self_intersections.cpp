@@ -33,7 +33,7 @@
 #include <variant>
 #include <vector>
 
-namespace {
+namespace test_self_intersections {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 namespace params = SMA::parameters;
@@ -329,4 +329,4 @@ TEST(Self_intersections, are_avoided_in_coordinates_of_single_precision)
   EXPECT_EQ(brute_force_intersections::number_of_pairs(shapes::soup(mesh)), 0u);
 }
 
-} // namespace
+} // namespace test_self_intersections

@@ -25,7 +25,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_execution {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::Random;
@@ -305,4 +305,4 @@ TEST(Freed_memory, is_kept)
 }
 #endif
 
-} // namespace
+} // namespace test_execution

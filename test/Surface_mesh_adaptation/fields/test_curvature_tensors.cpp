@@ -14,7 +14,7 @@
 #include <cmath>
 #include <vector>
 
-namespace {
+namespace test_curvature_tensors {
 
 using namespace tensors_of_tests;
 using analytic::Surface;
@@ -149,4 +149,4 @@ TEST(Curvature_tensors, see_bends_that_fits_smooth)
   EXPECT_EQ(bent, 2u * 5);
 }
 
-} // namespace
+} // namespace test_curvature_tensors

@@ -18,7 +18,7 @@
 #include <random>
 #include <vector>
 
-namespace {
+namespace test_hessian {
 
 using namespace tensors_of_tests;
 using tensors_of_tests::nan; // not that of C
@@ -314,4 +314,4 @@ TEST(Multiscale_tensor, takes_the_absolute_hessian_for_the_largest_error)
   EXPECT_EQ(SMA::multiscale_tensor(zero, norm, 100), zero);
 }
 
-} // namespace
+} // namespace test_hessian

@@ -21,7 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_metric_fields {
 
 using namespace tensors_of_tests;
 using tensors_of_tests::nan; // not that of C
@@ -454,4 +454,4 @@ TEST(Solution_metric_field, spends_the_vertices_where_the_field_bends)
   EXPECT_LT(error(4000, true), anisotropic / 3.5); // order 2 in the mean edge length is 4
 }
 
-} // namespace
+} // namespace test_metric_fields

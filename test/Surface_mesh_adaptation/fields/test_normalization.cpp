@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_normalization {
 
 using namespace tensors_of_tests;
 using tensors_of_tests::nan; // not that of C
@@ -364,4 +364,4 @@ TEST(Proximity_tensors, of_degenerate_faces_are_finite)
   for (const Metric_tensor_3& m : proximity(soup, 1e-6, 1)) EXPECT_TRUE(std::isfinite(norm(m)));
 }
 
-} // namespace
+} // namespace test_normalization

@@ -23,7 +23,7 @@
 #include <string>
 #include <utility>
 
-namespace {
+namespace test_approximation {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 namespace params = SMA::parameters;
@@ -396,4 +396,4 @@ TEST(Fit_to_surface, gives_the_same_bits_with_every_policy)
   });
 }
 
-} // namespace
+} // namespace test_approximation

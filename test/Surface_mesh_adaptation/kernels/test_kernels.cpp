@@ -25,7 +25,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_kernels {
 
 using namespace kernels_of_tests;
 namespace params = SMA::parameters;
@@ -459,4 +459,4 @@ TEST(Kernel, asks_the_visitor_after_each_sweep)
   EXPECT_EQ(visitor.left, 0);
 }
 
-} // namespace
+} // namespace test_kernels

@@ -18,7 +18,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace {
+namespace test_relocate {
 
 using namespace kernels_of_tests;
 using stars_of_tests::Plane_star;
@@ -189,4 +189,4 @@ TEST(Relocate, shifts_the_sides_of_a_narrow_strip_against_each_other)
   EXPECT_GT(checks::least_area(after, [](const Vector_3&) { return Vector_3(0, 0, 1); }), 0);
 }
 
-} // namespace
+} // namespace test_relocate

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_block_sweep {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::Index;
@@ -182,4 +182,4 @@ TEST(Sweep_blocks, visits_each_vertex_once_within_its_block)
   });
 }
 
-} // namespace
+} // namespace test_block_sweep

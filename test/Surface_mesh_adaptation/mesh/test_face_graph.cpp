@@ -24,7 +24,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_face_graph {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using namespace views_of_tests;
@@ -144,4 +144,4 @@ TEST(Hilbert_key, leads_through_all_cells_each_next_to_the_last_one)
   }
 }
 
-} // namespace
+} // namespace test_face_graph

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_mesh_view {
 
 using namespace views_of_tests;
 using checks::Topology;
@@ -226,4 +226,4 @@ TEST(Independence, needs_the_whole_neighbourhood)
   EXPECT_GT(broken_by_collapses, 20u);
 }
 
-} // namespace
+} // namespace test_mesh_view

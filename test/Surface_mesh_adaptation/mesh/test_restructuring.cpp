@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_restructuring {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using namespace views_of_tests;
@@ -298,4 +298,4 @@ TEST(Fill_holes, leaves_a_mesh_without_holes_alone)
   EXPECT_EQ(m.outgoing, before.outgoing);
 }
 
-} // namespace
+} // namespace test_restructuring

@@ -15,7 +15,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace test_metric {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::pi;
@@ -393,4 +393,4 @@ TEST(Gradation, bounds_the_growth_of_sizes_from_below_only)
   EXPECT_EQ(off, wanted);
 }
 
-} // namespace
+} // namespace test_metric

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace {
+namespace test_minimize_worst {
 
 using namespace stars_of_tests;
 
@@ -100,4 +100,4 @@ TEST(Minimize_worst, stops_where_it_is_good_enough)
   EXPECT_EQ(p, star.centroid());
 }
 
-} // namespace
+} // namespace test_minimize_worst

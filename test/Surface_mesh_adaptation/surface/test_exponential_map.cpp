@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-namespace {
+namespace test_exponential_map {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using analytic::Geodesic_point;
@@ -501,4 +501,4 @@ TEST(Transported_mean, keeps_the_anisotropy_of_a_field_that_follows_the_surface)
   EXPECT_GT((in_place.matrix() - expected).norm(), 0.5 * expected.norm()) << "without transport it is lost";
 }
 
-} // namespace
+} // namespace test_exponential_map

@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace {
+namespace test_features {
 
 using namespace references_of_tests;
 using SMA::Features;
@@ -297,4 +297,4 @@ TEST(Features, of_tiny_holes_are_corners)
   EXPECT_EQ(count(r.features, Vertex_class::curve), 0u);
 }
 
-} // namespace
+} // namespace test_features

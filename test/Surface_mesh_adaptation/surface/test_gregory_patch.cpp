@@ -17,7 +17,7 @@
 #include <limits>
 #include <random>
 
-namespace {
+namespace test_gregory_patch {
 
 using namespace patches_of_tests;
 using SMA::Flat_reconstruction;
@@ -388,4 +388,4 @@ TEST(Gregory_patch, does_not_fold_over_for_normals_up_to_25_degrees_off)
   EXPECT_EQ(folds, 0u);
 }
 
-} // namespace
+} // namespace test_gregory_patch

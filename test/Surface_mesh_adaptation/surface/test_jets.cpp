@@ -12,7 +12,7 @@
 
 #include <cstring>
 
-namespace {
+namespace test_jets {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using analytic::Featured_mesh;
@@ -288,4 +288,4 @@ TEST(Jets, are_the_same_bits_with_every_policy)
   }
 }
 
-} // namespace
+} // namespace test_jets

@@ -17,7 +17,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace {
+namespace test_patch_convergence {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::Index;
@@ -223,4 +223,4 @@ TEST(Gregory_patch, keeps_its_order_next_to_features)
   EXPECT_GT(std::log(coarse.normal / fine.normal) / std::log(coarse.h / fine.h), 2.5);
 }
 
-} // namespace
+} // namespace test_patch_convergence

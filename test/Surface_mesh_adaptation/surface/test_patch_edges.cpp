@@ -18,7 +18,7 @@
 #include <string>
 #include <utility>
 
-namespace {
+namespace test_patch_edges {
 
 using namespace patches_of_tests;
 using SMA::Gregory_reconstruction;
@@ -231,4 +231,4 @@ TEST(Feature_curve, is_the_edge_of_both_patches_next_to_it)
   EXPECT_EQ(edges, 40u);
 }
 
-} // namespace
+} // namespace test_patch_edges

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace {
+namespace test_reconstructions {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using shapes::Random;
@@ -169,4 +169,4 @@ TEST(Flat_facet, is_of_second_order)
   EXPECT_LT(order, 2.2);
 }
 
-} // namespace
+} // namespace test_reconstructions

@@ -21,7 +21,7 @@
 #include <string>
 #include <utility>
 
-namespace {
+namespace test_reference_surface {
 
 using namespace references_of_tests;
 using SMA::Location;
@@ -343,4 +343,4 @@ TEST(Patches, stay_near_decimated_parts_where_fits_do_not_agree_with_them)
   }
 }
 
-} // namespace
+} // namespace test_reference_surface

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <set>
 
-namespace {
+namespace test_graph_coloring {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using namespace graphs_of_tests;
@@ -130,4 +130,4 @@ TEST(First_fit_coloring, is_proper_and_first_fit_in_the_order_of_the_ids)
   }
 }
 
-} // namespace
+} // namespace test_graph_coloring

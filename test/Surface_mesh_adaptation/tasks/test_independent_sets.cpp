@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace {
+namespace test_independent_sets {
 
 namespace SMA = CGAL::Surface_mesh_adaptation;
 using namespace graphs_of_tests;
@@ -198,4 +198,4 @@ TEST(Task_priority, is_unique_and_ordered_by_bucket)
   EXPECT_NEAR(double(wins), 50, 25);
 }
 
-} // namespace
+} // namespace test_independent_sets

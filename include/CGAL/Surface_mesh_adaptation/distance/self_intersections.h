@@ -6,6 +6,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_DISTANCE_SELF_INTERSECTIONS_H
 #define CGAL_SURFACE_MESH_ADAPTATION_DISTANCE_SELF_INTERSECTIONS_H
 
+#include <CGAL/Surface_mesh_adaptation/distance/Surroundings.h>
 #include <CGAL/Surface_mesh_adaptation/distance/Triangle_tree.h>
 #include <CGAL/Surface_mesh_adaptation/execution/execution.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
@@ -16,7 +17,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -168,13 +168,6 @@ std::vector<Face_pair> self_intersections(const Execution& execution, const Mesh
       });
   });
 }
-
-/// What is around a part of a surface, which shares nothing with the faces inside of that part.
-struct Surroundings
-{
-  std::function<std::vector<Triangle_points>(const Vector_3&, const Vector_3&)> triangles; ///< in a box, from low to high
-  std::function<bool(const Mesh_view&, Index)> is_inside; ///< whether a face of the mesh is inside
-};
 
 /// The same with a tree of its own; and each face that meets the surroundings, if there are any, as a pair with itself.
 template <class Execution, class Points>

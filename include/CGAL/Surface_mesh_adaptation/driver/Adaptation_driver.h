@@ -185,8 +185,8 @@ private:
     mark_creases(deviations, asked);
   }
 
-  /// Whether the last correction changed sizes at few vertices for the faces that are too far away: around most of these they are as
-  /// small as they may be.
+  /// Whether the last correction changed sizes at few vertices for the faces that are too far away: around most of these
+  /// they are as small as they may be.
   bool is_exhausted(const Face_deviations<Surface>& deviations) const
   {
     return double(extent_) < vertices_around_face * double(deviations.number_above(execution_));
@@ -232,10 +232,10 @@ private:
   /// metric, and adapts the mesh to that there. With finer faces it comes nearer to the input, which does not meet itself.
   void part_faces()
   {
-    internal::Self_intersection_guard& guard = *surface_.intersections;
+    auto& guard = *surface_.intersections;
     std::size_t at_first = 0;
     for (int i = 0; i < max_corrections_of_intersections && !report_.stopped; ++i) {
-      const std::vector<Face_pair> pairs = guard.new_pairs(execution_, surface_);
+      const auto pairs = guard.new_pairs(execution_, surface_);
       if (i == 0) at_first = pairs.size();
       if (pairs.empty() || (i == corrections_for_half && 2 * pairs.size() > at_first)) break;
       guard.find_gaps(execution_, surface_);

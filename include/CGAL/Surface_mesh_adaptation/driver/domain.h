@@ -6,7 +6,7 @@
 #ifndef CGAL_SURFACE_MESH_ADAPTATION_DRIVER_DOMAIN_H
 #define CGAL_SURFACE_MESH_ADAPTATION_DRIVER_DOMAIN_H
 
-#include <CGAL/Surface_mesh_adaptation/distance/self_intersections.h>
+#include <CGAL/Surface_mesh_adaptation/distance/Surroundings.h>
 #include <CGAL/Surface_mesh_adaptation/exceptions.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/face_graph.h>

@@ -11,7 +11,6 @@
 #include <CGAL/Surface_mesh_adaptation/fields/expected_size.h>
 #include <CGAL/Surface_mesh_adaptation/fields/tightened_metric.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Late_creases.h>
-#include <CGAL/Surface_mesh_adaptation/kernels/Self_intersection_guard.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/Tolerance.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/alignment.h>
 #include <CGAL/Surface_mesh_adaptation/kernels/protected_sizes.h>
@@ -28,6 +27,10 @@
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
+
+namespace internal {
+class Self_intersection_guard; // its exact predicates are slow to compile
+}
 
 /// Everything that belongs to one vertex and follows from its location.
 template <class Metric>

@@ -16,6 +16,7 @@
 #include <CGAL/Surface_mesh_adaptation/metric/metric.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Thin_faces.h>
 
 #include <algorithm>
 #include <array>
@@ -36,7 +37,7 @@ class Mending
 public:
   /// `constraints` is what the user asks of the input; both live as long as this.
   Mending(Surface& surface, const Feature_parameters& constraints)
-    : surface_(surface), mesh_(surface.mesh), constraints_(constraints)
+    : surface_(surface), mesh_(surface.mesh), faces_(surface.mesh, surface.points), constraints_(constraints)
   {
     if (surface.tolerance) largest_change_ = share_of_tolerance * surface.tolerance->of_operations();
   }
@@ -46,19 +47,19 @@ public:
   template <class Execution>
   std::size_t run(const Execution& execution, Sweep_counts& counts)
   {
-    faces_ = pack(execution, mesh_.number_of_faces(), [&](std::size_t f) {
-      return !mesh_.is_removed_face(Index(f)) && is_degenerate(corners(Index(f)));
+    left_ = pack(execution, mesh_.number_of_faces(), [&](std::size_t f) {
+      return !mesh_.is_removed_face(Index(f)) && is_degenerate(faces_.corners(Index(f)));
     });
-    counts.candidates += faces_.size();
-    std::size_t left = max_operations * faces_.size();
+    counts.candidates += left_.size();
+    std::size_t operations = max_operations * left_.size();
     for (bool is_changed = true; is_changed;) {
       is_changed = false;
       ++counts.sweeps;
-      for (std::size_t i = 0; i < faces_.size() && left > 0; ++i) {
-        if (mesh_.is_removed_face(faces_[i]) || !is_degenerate(corners(faces_[i])) || !mend(faces_[i])) continue;
+      for (std::size_t i = 0; i < left_.size() && operations > 0; ++i) {
+        if (mesh_.is_removed_face(left_[i]) || !is_degenerate(faces_.corners(left_[i])) || !mend(left_[i])) continue;
         is_changed = true;
         ++counts.applied;
-        --left;
+        --operations;
       }
     }
     return counts.applied;
@@ -68,26 +69,20 @@ private:
   static constexpr double share_of_tolerance = 0.01;
   static constexpr double length_of_needle = 1e-3;  // of its shortest edge, in lengths of the longest
   static constexpr double quality_of_thin = 1e-2;   // of faces that may be as bad as others beside them
-  static constexpr double max_share = 0.99;         // of the length of an edge beside such a face
-  static constexpr double max_turn = 0.9;           // cosine between a face and those that take its place
   static constexpr double max_offset = 1e-3;        // of a vertex that vanishes from these faces, in edges of a mended one
   static constexpr std::size_t max_operations = 16; // for each face: so this ends
 
-  using Triangle = std::array<Index, 3>;
+  using Thin_faces = internal::Thin_faces<decltype(Surface::points)>;
+  using Triangle = typename Thin_faces::Triangle;
 
-  const Vector_3& point(Index v) const { return surface_.points[v]; }
-  double length(Index a, Index b) const { return (point(b) - point(a)).norm(); }
-  double length(Index h) const { return length(mesh_.source(h), mesh_.target(h)); }
-
-  Triangle corners(Index f) const { return {mesh_.corner[3 * f], mesh_.corner[3 * f + 1], mesh_.corner[3 * f + 2]}; }
   /// In space or in the metric, whichever is better: in anisotropic metrics narrow faces may be good, and good ones narrow.
   double quality(const Triangle& t) const
   {
     const Isotropic_metric unit;
-    const double in_space = face_quality(unit, unit, unit, point(t[1]) - point(t[0]), point(t[2]) - point(t[0]));
+    const Vector_3& origin = faces_.point(t[0]);
+    const double in_space = face_quality(unit, unit, unit, faces_.point(t[1]) - origin, faces_.point(t[2]) - origin);
     return (std::max)(in_space, surface_.quality(t[0], t[1], t[2]));
   }
-  Vector_3 normal(const Triangle& t) const { return surface_.normal(t[0], t[1], t[2]); }
 
   bool is_degenerate(const Triangle& t) const { return quality(t) < min_quality_of_mended; }
   bool is_thin(const Triangle& t) const { return quality(t) < quality_of_thin; }
@@ -95,12 +90,9 @@ private:
   /// Mends one face, if that is possible.
   bool mend(Index f)
   {
-    const std::array<Index, 3> edges{3 * f, 3 * f + 1, 3 * f + 2};
-    const auto range =
-      std::minmax_element(edges.begin(), edges.end(), [&](Index g, Index h) { return length(g) < length(h); });
-    const Index shortest = *range.first, longest = *range.second;
-    const bool is_needle = length(shortest) < length_of_needle * length(longest);
-    const double largest_offset = (std::min)(max_offset * length(longest), largest_change_);
+    const Index shortest = faces_.shortest_edge(f), longest = faces_.longest_edge(f);
+    const bool is_needle = faces_.length(shortest) < length_of_needle * faces_.length(longest);
+    const double largest_offset = (std::min)(max_offset * faces_.length(longest), largest_change_);
     return (is_needle && collapse(shortest, largest_offset)) || swap(longest) || collapse(shortest, largest_offset);
   }
 
@@ -112,28 +104,19 @@ private:
       if (mesh_.is_feature(h) && !mesh_.is_feature(g)) mesh_.set_curve(g, merged_curve);
     mesh_.set_curve(h, no_curve);
     mesh_.flip(h);
-    faces_.push_back(Mesh_view::face(mesh_.twin[h]));
+    left_.push_back(Mesh_view::face(mesh_.twin[h]));
     return true;
   }
 
   bool may_swap(Index h) const
   {
-    const Index t = mesh_.twin[h];
-    if (t == no_index || is_constrained(h)) return false;
-    const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
-    if (height(p, q, b) > largest_change_ || mesh_.are_adjacent(a, b)) return false;
-    const Triangle face{p, q, b}, behind{q, p, a}, first{a, b, p}, second{b, a, q};
-    if (is_thin(behind)) return length(a, b) < max_share * length(p, q);
-    return (std::min)(quality(first), quality(second)) > quality(face) && is_kept(behind, first) && is_kept(behind, second);
+    return mesh_.twin[h] != no_index && !is_constrained(h) && height(h) <= largest_change_ &&
+           faces_.is_mended_by_swap(h, [&](const Triangle& t) { return is_thin(t); },
+                                    [&](const Triangle& t) { return quality(t); });
   }
 
-  double height(Index p, Index q, Index b) const
-  {
-    return (point(q) - point(p)).cross(point(b) - point(p)).norm() / length(p, q);
-  }
-
-  /// Whether `after` does not turn from `before`, which it takes the place of.
-  bool is_kept(const Triangle& before, const Triangle& after) const { return normal(before).dot(normal(after)) > max_turn; }
+  /// Of the corner across.
+  double height(Index h) const { return faces_.normal(faces_.corners(Mesh_view::face(h))).norm() / faces_.length(h); }
 
   /// Collapses an edge where that moves the other faces by no more than `largest_offset`.
   bool collapse(Index h, double largest_offset)
@@ -168,15 +151,17 @@ private:
   /// Whether the other faces around the vertex that vanishes neither turn nor become degenerate, and pass by it that near.
   bool keeps_faces(const Mesh_view::Directed_edge& e, double largest_offset) const
   {
-    const Index s = mesh_.vanishing_vertex(e), d = mesh_.kept_vertex(e);
-    bool result = true;
-    mesh_.for_each_outgoing(s, [&](Index h) {
-      const Triangle before{s, mesh_.target(h), mesh_.apex(h)}, after{d, before[1], before[2]};
-      if (before[1] == d || before[2] == d || is_degenerate(before)) return;
-      result = result && !is_degenerate(after) && is_kept(before, after) &&
-               std::abs(normal(after).dot(point(s) - point(d))) <= largest_offset;
+    const Vector_3& vanishing = faces_.point(mesh_.vanishing_vertex(e));
+    return faces_.all_of_moved(e, [&](const Triangle& before, const Triangle& after) {
+      return is_degenerate(before) ||
+             (!is_degenerate(after) && faces_.is_kept(before, after) && offset(vanishing, after) <= largest_offset);
     });
-    return result;
+  }
+
+  /// How far `p` is from the plane of the face.
+  double offset(const Vector_3& p, const Triangle& t) const
+  {
+    return std::abs(faces_.normal(t).normalized().dot(p - faces_.point(t[0])));
   }
 
   /// Whether the edge of `h` is on a curve of which the user has asked something.
@@ -196,9 +181,10 @@ private:
 
   Surface& surface_;
   Mesh_view& mesh_;
+  const Thin_faces faces_;
   const Feature_parameters& constraints_;
   double largest_change_ = std::numeric_limits<double>::infinity(); // length
-  std::vector<Index> faces_;
+  std::vector<Index> left_;
 };
 
 } // namespace Surface_mesh_adaptation

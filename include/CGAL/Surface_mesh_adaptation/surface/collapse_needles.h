@@ -11,6 +11,7 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Thin_faces.h>
 #include <CGAL/Surface_mesh_adaptation/surface/negligible_length.h>
 
 #include <algorithm>
@@ -33,7 +34,7 @@ class Needle_collapsing
 public:
   /// Edges up to `most` may be negligible.
   Needle_collapsing(Mesh_view& mesh, const std::vector<Vector_3>& points, const Feature_parameters& constraints, double most)
-    : mesh_(mesh), points_(points), constraints_(constraints), negligible_(most)
+    : mesh_(mesh), points_(points), faces_(mesh, points), constraints_(constraints), negligible_(most)
   {}
 
   /// Collapses until nothing is left: an edge may have to wait for others beside it.
@@ -54,9 +55,10 @@ public:
   }
 
 private:
-  static constexpr double max_turn = 0.9; // cosine between a face and the one that takes its place
+  using Thin_faces = internal::Thin_faces<std::vector<Vector_3>>;
+  using Triangle = Thin_faces::Triangle;
 
-  double length(Index a, Index b) const { return (points_[b] - points_[a]).norm(); }
+  double length(Index a, Index b) const { return faces_.length(a, b); }
 
   template <class Execution, class Predicate>
   std::vector<Index> edges(const Execution& execution, const Predicate& predicate) const
@@ -103,8 +105,7 @@ private:
 
   bool may_collapse(const Mesh_view::Directed_edge& e) const
   {
-    const Index s = mesh_.vanishing_vertex(e), d = mesh_.kept_vertex(e);
-    return is_free(s) && mesh_.is_collapsible(e) && keeps_faces(s, d);
+    return is_free(mesh_.vanishing_vertex(e)) && mesh_.is_collapsible(e) && keeps_faces(e);
   }
 
   /// Whether no constraint is lost with `s`.
@@ -120,28 +121,17 @@ private:
     return result;
   }
 
-  /// Whether no face around `s` turns whose height is not negligible.
-  bool keeps_faces(Index s, Index d) const
+  /// Whether no face turns whose height is not negligible.
+  bool keeps_faces(const Mesh_view::Directed_edge& e) const
   {
-    bool result = true;
-    mesh_.for_each_outgoing(s, [&](Index h) {
-      const Index x = mesh_.target(h), y = mesh_.apex(h);
-      if (x == d || y == d) return;
-      const Vector_3 before = normal(s, x, y), after = normal(d, x, y);
-      const double longest = (std::max)({length(s, x), length(x, y), length(y, s)});
-      result = result && (before.norm() <= negligible_ * longest ||
-                          before.dot(after) > max_turn * before.norm() * after.norm());
+    return faces_.all_of_moved(e, [&](const Triangle& before, const Triangle& after) {
+      return faces_.normal(before).norm() <= negligible_ * faces_.longest(before) || faces_.is_kept(before, after);
     });
-    return result;
-  }
-
-  Vector_3 normal(Index a, Index b, Index c) const
-  {
-    return (points_[b] - points_[a]).cross(points_[c] - points_[a]);
   }
 
   Mesh_view& mesh_;
   const std::vector<Vector_3>& points_;
+  const Thin_faces faces_;
   const Feature_parameters& constraints_;
   double negligible_;         // length
   std::vector<double> moved_; // how far what became this vertex has moved, at most

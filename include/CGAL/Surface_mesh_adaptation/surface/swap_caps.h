@@ -12,10 +12,10 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/Mesh_view.h>
 #include <CGAL/Surface_mesh_adaptation/numerics/small_matrices.h>
 #include <CGAL/Surface_mesh_adaptation/surface/Features.h>
+#include <CGAL/Surface_mesh_adaptation/surface/Thin_faces.h>
 #include <CGAL/Surface_mesh_adaptation/surface/negligible_length.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -39,7 +39,7 @@ class Cap_swapping
 public:
   /// `constraints` has a value for each halfedge, or none at all; heights up to `most` may be negligible.
   Cap_swapping(Mesh_view& mesh, const std::vector<Vector_3>& points, std::vector<Edge_constraint>& constraints, double most)
-    : mesh_(mesh), points_(points), constraints_(constraints), negligible_(most)
+    : mesh_(mesh), points_(points), faces_(mesh, points), constraints_(constraints), negligible_(most)
   {}
 
   /// Swaps until no cap can be mended. Those that lie one upon the other get at good faces step by step, while the
@@ -47,17 +47,20 @@ public:
   template <class Execution>
   Swapped_caps run(const Execution& execution)
   {
-    std::vector<Index> caps = pack(execution, mesh_.number_of_faces(), [&](std::size_t f) { return is_flat(Index(f)); });
+    std::vector<Index> caps = pack(execution, mesh_.number_of_faces(), [&](std::size_t f) {
+      return is_flat(faces_.corners(Index(f)));
+    });
     if (caps.empty()) return {};
     negligible_ = internal::negligible_length(execution, points_, negligible_);
-    caps.erase(std::remove_if(caps.begin(), caps.end(), [&](Index f) { return !is_cap(f); }), caps.end());
+    caps.erase(std::remove_if(caps.begin(), caps.end(), [&](Index f) { return !is_cap(faces_.corners(f)); }), caps.end());
     std::size_t left = max_swaps * caps.size();
     for (bool is_changed = true; is_changed && left > 0;) {
       is_changed = false;
       for (std::size_t i = 0; i < caps.size() && left > 0; ++i) {
-        const Index h = longest_edge(caps[i]);
-        if (!is_cap(caps[i]) || !is_mended_by_swap(h)) continue;
-        if (is_cap(Mesh_view::face(mesh_.twin[h]))) caps.push_back(Mesh_view::face(mesh_.twin[h]));
+        const Index h = faces_.longest_edge(caps[i]);
+        if (!is_cap(faces_.corners(caps[i])) || !may_swap(h)) continue;
+        const Index behind = Mesh_view::face(mesh_.twin[h]);
+        if (is_cap(faces_.corners(behind))) caps.push_back(behind);
         swap(h);
         is_changed = true;
         --left;
@@ -68,61 +71,30 @@ public:
 
 private:
   static constexpr double max_height = 1e-5;   // of a cap, in lengths of its longest edge
-  static constexpr double max_share = 0.99;    // of the length of an edge between two caps
-  static constexpr double max_turn = 0.9;      // cosine between a face and those that take its place
   static constexpr std::size_t max_swaps = 16; // for each cap: so this ends
 
-  const Vector_3& point(Index v) const { return points_[v]; }
+  using Thin_faces = internal::Thin_faces<std::vector<Vector_3>>;
+  using Triangle = Thin_faces::Triangle;
 
   /// In lengths of the longest edge.
-  static double height(const Vector_3& a, const Vector_3& b, const Vector_3& c)
+  double height(const Triangle& t) const
   {
-    const double squared = (std::max)({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
-    return squared > 0 ? (b - a).cross(c - a).norm() / squared : 0;
+    const double longest = faces_.longest(t);
+    return longest > 0 ? faces_.normal(t).norm() / (longest * longest) : 0;
   }
 
-  double height(Index f) const
+  bool is_flat(const Triangle& t) const { return height(t) < internal::negligible_share; }
+
+  bool is_cap(const Triangle& t) const
   {
-    return height(point(mesh_.corner[3 * f]), point(mesh_.corner[3 * f + 1]), point(mesh_.corner[3 * f + 2]));
+    return is_flat(t) && height(t) < (std::max)(max_height, negligible_ / faces_.longest(t));
   }
 
-  bool is_flat(Index f) const { return height(f) < internal::negligible_share; }
-
-  bool is_cap(Index f) const
+  bool may_swap(Index h) const
   {
-    if (!is_flat(f)) return false;
-    const Index h = longest_edge(f);
-    return height(f) < (std::max)(max_height, negligible_ / length(mesh_.source(h), mesh_.target(h)));
-  }
-
-  double length(Index a, Index b) const { return (point(b) - point(a)).norm(); }
-
-  Index longest_edge(Index f) const
-  {
-    const auto is_shorter = [&](Index g, Index h) {
-      return length(mesh_.source(g), mesh_.target(g)) < length(mesh_.source(h), mesh_.target(h));
-    };
-    const std::array<Index, 3> edges{3 * f, 3 * f + 1, 3 * f + 2};
-    return *std::max_element(edges.begin(), edges.end(), is_shorter);
-  }
-
-  Vector_3 normal(Index a, Index b, Index c) const
-  {
-    return (point(b) - point(a)).cross(point(c) - point(a)).normalized();
-  }
-
-  /// Whether the cap at the longest edge `h` is mended by a swap, or gets nearer to that together with another one.
-  bool is_mended_by_swap(Index h) const
-  {
-    const Index t = mesh_.twin[h];
-    if (t == no_index || (!constraints_.empty() && constraints_[h] != Edge_constraint::none)) return false;
-    const Index p = mesh_.source(h), q = mesh_.target(h), b = mesh_.apex(h), a = mesh_.apex(t);
-    if (mesh_.are_adjacent(a, b)) return false;
-    if (is_cap(Mesh_view::face(t))) return length(a, b) < max_share * length(p, q);
-    const double after = (std::min)(height(point(a), point(b), point(p)), height(point(b), point(a), point(q)));
-    const Vector_3 plane = normal(q, p, a);
-    return after > height(Mesh_view::face(h)) && plane.dot(normal(a, b, p)) > max_turn &&
-           plane.dot(normal(b, a, q)) > max_turn;
+    return mesh_.twin[h] != no_index && (constraints_.empty() || constraints_[h] == Edge_constraint::none) &&
+           faces_.is_mended_by_swap(h, [&](const Triangle& t) { return is_cap(t); },
+                                    [&](const Triangle& t) { return height(t); });
   }
 
   void swap(Index h)
@@ -157,6 +129,7 @@ private:
 
   Mesh_view& mesh_;
   const std::vector<Vector_3>& points_;
+  const Thin_faces faces_;
   std::vector<Edge_constraint>& constraints_;
   double negligible_; // height
   Swapped_caps origins_;
