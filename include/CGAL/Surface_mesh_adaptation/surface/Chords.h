@@ -89,11 +89,13 @@ struct Bends
 
   /// Whether its chords are chance. Of what is smooth in tessellations of a CAD kernel .65 and more is at chords, of coarse
   /// boxes with round edges .34, of others that are not convex .11; convex hulls, which bridge hollows, and what a
-  /// decimation leaves of them mostly have less.
-  bool are_chords_chance() const
+  /// decimation leaves of them mostly have less. Of those that are known to be that, `are_decimated`, half is asked for.
+  bool are_chords_chance(bool are_decimated) const
   {
-    constexpr double least_share = 0.1, least_share_if_convex = 0.33, least_convex = 0.95, least_smooth = 0.25;
-    const double least = convex >= least_convex * all ? least_share_if_convex : least_share;
+    constexpr double least_share = 0.1, least_share_if_convex = 0.33, least_share_if_decimated = 0.5;
+    constexpr double least_convex = 0.95, least_smooth = 0.25;
+    const double least = are_decimated ? least_share_if_decimated
+                         : convex >= least_convex * all ? least_share_if_convex : least_share;
     return regular > 0 && regular < least * smooth && smooth >= least_smooth * all;
   }
 };

@@ -251,7 +251,7 @@ private:
   {
     const Bends found = bends(execution, mesh_, points_, facets_, is_feature_);
     if (found.chords.number > 0) facets_.sag = found.chords.sag;
-    if (!found.are_chords_chance()) return;
+    if (!found.are_chords_chance(facets_.are_decimated)) return;
     facets_.are_decimated = true;
     facets_.sag = (std::min)(facets_.sag, largest_sag_of_chance * diagonal_of_bounding_box(points_));
   }
