@@ -106,6 +106,12 @@ constexpr double largest_ratio_in_nets = 4;
 
 inline double angle_between(const Vector_3& a, const Vector_3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
+/// Between the faces beside an edge that is not on the border.
+inline double turn_at(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index h)
+{
+  return angle_between(face_normal(mesh, points, h), face_normal(mesh, points, mesh.twin[h]));
+}
+
 /// Two planes of the shape meet in an edge if their normals are farther apart than this, in radians: two degrees.
 constexpr double least_turn_between_planes = 0.035;
 
@@ -258,8 +264,7 @@ private:
 
   bool turns_sharply(Index h) const
   {
-    return !mesh_.is_border(h) && angle_between(face_normal(mesh_, points_, h),
-                                               face_normal(mesh_, points_, mesh_.twin[h])) > least_turn_of_creases;
+    return !mesh_.is_border(h) && turn_at(mesh_, points_, h) > least_turn_of_creases;
   }
 
   double area(std::size_t f) const { return area_of_face(mesh_, points_, f); }

@@ -68,7 +68,7 @@ struct Hull_signs
     return {convex + s.convex, bend + s.bend, flat + s.flat, area + s.area};
   }
 
-  /// Faces of hulls of parts lie in planes with .15 to .45 of their area, of random points on ellipsoids with .05. Either
+  /// Faces of hulls of parts lie in planes with .11 to .45 of their area, of random points on ellipsoids with .05. Either
   /// side may be the outer one.
   bool is_hull() const
   {
@@ -76,12 +76,6 @@ struct Hull_signs
     return (std::max)(convex, bend - convex) >= least_convex * bend && flat >= least_flat * area;
   }
 };
-
-/// Between the faces beside an edge that is not on the border.
-inline double turn_at(const Mesh_view& mesh, const std::vector<Vector_3>& points, Index h)
-{
-  return angle_between(face_normal(mesh, points, h), face_normal(mesh, points, mesh.twin[h]));
-}
 
 /// Whether the face is in one plane with another beside it, but for a twentieth of a degree, and with all around no corner
 /// of it: hulls have no vertices inside of their faces.
