@@ -10,6 +10,7 @@
 #include "shapes.h"
 
 #include <CGAL/Surface_mesh_adaptation/adapt_surface_mesh.h>
+#include <CGAL/Surface_mesh_adaptation/distance/Covered_points.h>
 #include <CGAL/Surface_mesh_adaptation/distance/surface_distance.h>
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
@@ -19,6 +20,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <set>
@@ -1020,6 +1022,53 @@ TEST(Is_over_surface, says_yes_to_nearly_all_faces_of_a_mesh_that_is_near)
   for (std::size_t i = 0; i < from.size(); ++i)
     yes += SMA::internal::is_over_surface(to, from[i], 0.05, to.nearest(from[i][0]).triangle) ? 1 : 0;
   EXPECT_GT(double(yes), 0.95 * double(from.size()));
+}
+
+using Star = std::pair<SMA::Ring<Index>, SMA::Ring<SMA::Triangle_points>>;
+
+/// The faces around `v`, and the triangles that they would be with it at `p`.
+Star star_at(const SMA::Mesh_view& mesh, const SMA::Buffer<Vector_3>& points, Index v, const Vector_3& p)
+{
+  Star star;
+  mesh.for_each_outgoing(v, [&](Index h) {
+    star.first.push_back(SMA::Mesh_view::face(h));
+    star.second.push_back({p, points[mesh.target(h)], points[mesh.apex(h)]});
+  });
+  return star;
+}
+
+TEST(Covered_points, belong_after_many_moves_to_faces_that_are_near)
+{
+  shapes::Random random(47);
+  constexpr double distance = 0.03;
+  const Soup soup = shapes::square(16, 0.2);
+  const SMA::Mesh_view mesh = shapes::view(soup);
+  SMA::Buffer<Vector_3> points(soup.points.begin(), soup.points.end());
+  SMA::Covered_points covered(SMA::Sequential_execution(), mesh, points, {0.25 * distance, distance, 3});
+  std::size_t moves = 0, refused = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Index v = Index(random.below(points.size()));
+    const Vector_3 p = points[v] + random.real(0, 0.03) * random.vector();
+    const auto [faces, triangles] = star_at(mesh, points, v, p);
+    SMA::Covered_points::Owners owners;
+    const bool is_kept = covered.find_owners(faces, triangles, distance, owners);
+    EXPECT_EQ(is_kept, covered.are_near(faces, triangles, distance));
+    ++(is_kept ? moves : refused);
+    if (!is_kept) continue;
+    points[v] = p;
+    covered.hand_over(faces, owners);
+  }
+  EXPECT_GT(moves, 1000u);
+  EXPECT_GT(refused, 1000u);
+  std::size_t n = 0;
+  for (Index f = 0; f < mesh.number_of_faces(); ++f) {
+    const std::array<SMA::Triangle_points, 1> triangle{SMA::internal::corners_from(mesh, points, 3 * f)};
+    EXPECT_TRUE(covered.are_near(std::array<Index, 1>{f}, triangle, distance * (1 + 1e-12)));
+    SMA::Covered_points::Owners own;
+    covered.find_owners(std::array<Index, 1>{f}, triangle, 1, own);
+    n += own.size();
+  }
+  EXPECT_GE(n, points.size() + mesh.number_of_faces()); // none is lost
 }
 
 // The same for all

@@ -17,11 +17,14 @@
 #include <CGAL/Surface_mesh_adaptation/mesh/Point_lists.h>
 #include <CGAL/Surface_mesh_adaptation/mesh/restructure.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace CGAL {
 namespace Surface_mesh_adaptation {
@@ -76,9 +79,41 @@ public:
     return true;
   }
 
-  /// Hands the points of `faces` on to those of them that are left: to the nearest, or to one that is `near_enough`.
+  /// For points of faces that are to be replaced: which of the triangles that do so covers them then.
+  using Owners = boost::container::small_vector<std::pair<Index, std::size_t>, 96>;
+
+  /// Finds the `owners` of the points that `faces` cover among `triangles`, looked at first for those of the k-th face is the
+  /// k-th of these. Returns `false` once a point is not within `distance` of all.
+  template <class Faces, class Triangles>
+  bool find_owners(const Faces& faces, const Triangles& triangles, double distance, Owners& owners) const
+  {
+    Ring<internal::Prepared_triangle> prepared;
+    for (const Triangle_points& t : triangles) prepared.emplace_back(t);
+    std::size_t k = 0;
+    for (const Index f : faces) {
+      std::size_t hint = (std::min)(k++, prepared.size() - 1);
+      for (Index i = lists_.first[f]; i != no_index; i = lists_.next[i]) {
+        const Nearest nearest = nearest_of(points_[i], prepared, distance * distance, hint);
+        if (nearest.squared_distance > distance * distance) return false;
+        hint = nearest.triangle;
+        owners.emplace_back(i, hint);
+      }
+    }
+    return true;
+  }
+
+  /// Hands the points that `faces` cover on to their owners among these, which `find_owners()` has found.
   template <class Faces>
-  void hand_over(const Mesh_view& mesh, const Buffer<Vector_3>& points, const Faces& faces, double near_enough)
+  void hand_over(const Faces& faces, const Owners& owners)
+  {
+    for (const Index f : faces) lists_.first[f] = no_index;
+    for (const auto& [point, k] : owners) lists_.link(point, faces[k]);
+  }
+
+  /// Hands the points of `faces` on to those of them that are left: to one that they are above, within `distance`, or to the
+  /// nearest.
+  template <class Faces>
+  void hand_over(const Mesh_view& mesh, const Buffer<Vector_3>& points, const Faces& faces, double distance)
   {
     Ring<Index> moving;
     for (const Index f : faces) {
@@ -88,13 +123,13 @@ public:
     Ring<Index> left;
     for (const Index f : faces)
       if (!mesh.is_removed_face(f)) left.push_back(f);
-    link_to_nearest(moving, mesh, points, left, near_enough);
+    link_to_nearest(moving, mesh, points, left, distance);
   }
 
   /// Hands the points of all faces on to their children; `mesh` and `points` are as the plan made them.
   template <class Execution>
   void hand_to_children(const Execution& execution, const Restructuring& plan, const Mesh_view& mesh,
-                        const Buffer<Vector_3>& points, double near_enough)
+                        const Buffer<Vector_3>& points, double distance)
   {
     Buffer<Index> first_of_parents;
     first_of_parents.swap(lists_.first);
@@ -104,7 +139,7 @@ public:
       for (Index i = first_of_parents[parent]; i != no_index; i = lists_.next[i]) moving.push_back(i);
       const Index end = plan.first_child(Index(parent) + 1);
       for (Index f = plan.first_child(Index(parent)); f < end; ++f) children.push_back(f);
-      if (!children.empty()) link_to_nearest(moving, mesh, points, children, near_enough);
+      if (!children.empty()) link_to_nearest(moving, mesh, points, children, distance);
     }, heavy_chunk_length);
   }
 
@@ -147,7 +182,7 @@ private:
   }
 
   void link_to_nearest(const Ring<Index>& moving, const Mesh_view& mesh, const Buffer<Vector_3>& points,
-                       const Ring<Index>& faces, double near_enough)
+                       const Ring<Index>& faces, double distance)
   {
     Ring<internal::Prepared_triangle> triangles;
     for (const Index f : faces) {
@@ -156,24 +191,26 @@ private:
     }
     std::size_t hint = 0; // points that follow each other mostly belong to one face
     for (const Index i : moving) {
-      hint = nearest(points_[i], triangles, near_enough * near_enough, hint);
+      hint = nearest_of(points_[i], triangles, distance * distance, hint).triangle;
       lists_.link(i, faces[hint]);
     }
   }
 
-  /// The triangle next to `p`, or the first one from `hint` on that `p` is above and near enough to.
-  static std::size_t nearest(const Vector_3& p, const Ring<internal::Prepared_triangle>& triangles,
-                             double squared_near_enough, std::size_t hint)
+  struct Nearest
   {
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t result = hint;
+    double squared_distance;
+    std::size_t triangle;
+  };
+
+  /// The triangle next to `p`, or the first one from `hint` on that `p` is above and near enough to.
+  static Nearest nearest_of(const Vector_3& p, const Ring<internal::Prepared_triangle>& triangles,
+                            double squared_near_enough, std::size_t hint)
+  {
+    Nearest result{std::numeric_limits<double>::infinity(), hint};
     for (std::size_t n = triangles.size(), i = hint; n > 0; --n, i = i + 1 < triangles.size() ? i + 1 : 0) {
       const auto d = triangles[i].squared_distance(p);
-      if (d.is_above && d.squared <= squared_near_enough) return i;
-      if (d.squared < least) {
-        least = d.squared;
-        result = i;
-      }
+      if (d.is_above && d.squared <= squared_near_enough) return {d.squared, i};
+      if (d.squared < result.squared_distance) result = {d.squared, i};
     }
     return result;
   }

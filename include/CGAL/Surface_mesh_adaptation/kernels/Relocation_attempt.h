@@ -96,10 +96,8 @@ public:
   /// Moves the vertex, unless that leaves the tolerance.
   bool apply(const Placed_vertex<Metric>& moved)
   {
-    if (surface.tolerance && !keeps_tolerance(moved)) return false;
-    surface.set(vertex, moved);
-    if (surface.tolerance) surface.tolerance->hand_over(surface, surface.faces_around(vertex));
-    activate_around(moved);
+    if (surface.tolerance) return apply_within_tolerance(moved);
+    set(moved);
     return true;
   }
 
@@ -132,18 +130,34 @@ private:
     });
   }
 
-  bool keeps_tolerance(const Placed_vertex<Metric>& moved) const
+  void set(const Placed_vertex<Metric>& moved)
+  {
+    surface.set(vertex, moved);
+    activate_around(moved);
+  }
+
+  bool apply_within_tolerance(const Placed_vertex<Metric>& moved)
   {
     const Mesh_view& mesh = surface.mesh;
+    const Ring<Index> old_faces = surface.faces_around(vertex);
     Ring<Triangle_points> faces;
     mesh.for_each_outgoing(vertex, [&](Index h) {
       faces.push_back({moved.point, surface.points[mesh.target(h)], surface.points[mesh.apex(h)]});
     });
-    return surface.tolerance->are_covered(surface.faces_around(vertex), faces) &&
-           star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
-             return surface.tolerance->is_kept({moved.location, moved.point}, surface.corner(a.vertex),
-                                               surface.corner(b.vertex));
-           });
+    Covered_points::Owners owners;
+    if (!surface.tolerance->are_covered(old_faces, faces, owners) || !keeps_near(moved)) return false;
+    surface.tolerance->hand_over(old_faces, owners);
+    set(moved);
+    return true;
+  }
+
+  /// Whether the faces around stay within the tolerance of the input.
+  bool keeps_near(const Placed_vertex<Metric>& moved) const
+  {
+    return star.for_each_face_while([&](const Neighbor& a, const Neighbor& b) {
+      return surface.tolerance->is_kept({moved.location, moved.point}, surface.corner(a.vertex),
+                                        surface.corner(b.vertex));
+    });
   }
 
   /// The neighbours may move now, and edges around be split where they could not be before; the other kernels look again

@@ -69,25 +69,35 @@ public:
     return covered_.are_near(faces, triangles, of_operations());
   }
 
+  /// As `are_covered()`, with what `hand_over()` needs once the k-th triangle has replaced the k-th face.
+  template <class Faces, class Triangles>
+  bool are_covered(const Faces& faces, const Triangles& triangles, Covered_points::Owners& owners) const
+  {
+    return covered_.find_owners(faces, triangles, of_operations(), owners);
+  }
+
+  template <class Faces>
+  void hand_over(const Faces& faces, const Covered_points::Owners& owners)
+  {
+    covered_.hand_over(faces, owners);
+  }
+
   /// Hands what `faces` of the adapted mesh cover on to those of them that are left.
   template <class Surface, class Faces>
   void hand_over(const Surface& surface, const Faces& faces)
   {
-    covered_.hand_over(surface.mesh, surface.points, faces, near_enough());
+    covered_.hand_over(surface.mesh, surface.points, faces, of_operations());
   }
 
   /// Hands what all faces cover on to their children, after `plan` was carried out.
   template <class Execution, class Surface>
   void hand_to_children(const Execution& execution, const Restructuring& plan, const Surface& surface)
   {
-    covered_.hand_to_children(execution, plan, surface.mesh, surface.points, near_enough());
+    covered_.hand_to_children(execution, plan, surface.mesh, surface.points, of_operations());
   }
 
 private:
   static constexpr double share_of_height = 0.25;
-
-  /// To a face that covers a point, so that it need not be the nearest.
-  double near_enough() const { return of_operations() / 8; }
 
   const Reference* reference_;
   const Tolerance* tolerance_;
