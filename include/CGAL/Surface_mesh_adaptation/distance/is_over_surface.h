@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -99,7 +100,7 @@ public:
   /// gap.
   bool run(std::size_t start)
   {
-    seen_.push_back(surface_.towards(centroid_, start));
+    add(surface_.towards(centroid_, start));
     for (std::size_t i = 0; i < seen_.size(); ++i)
       if (!visit(seen_[i])) return false;
     return is_center_covered_;
@@ -165,15 +166,25 @@ private:
     return true;
   }
 
-  bool is_noted(std::size_t i) const { return std::find(seen_.begin(), seen_.end(), i) != seen_.end(); }
+  /// Those that are met again are mostly among the last.
+  bool is_noted(std::size_t i) const
+  {
+    return may_be_noted_[i % may_be_noted_.size()] && std::find(seen_.rbegin(), seen_.rend(), i) != seen_.rend();
+  }
 
   /// Whether there is room for one more triangle to visit.
   bool note(std::size_t i)
   {
     if (is_noted(i)) return true;
     if (seen_.size() == most_triangles) return false;
-    seen_.push_back(i);
+    add(i);
     return true;
+  }
+
+  void add(std::size_t i)
+  {
+    seen_.push_back(i);
+    may_be_noted_.set(i % may_be_noted_.size());
   }
 
   const Triangle_tree& surface_;
@@ -183,6 +194,7 @@ private:
   double margin_, largest_height_;
   std::optional<Vector_3> too_far_;
   boost::container::static_vector<std::size_t, most_triangles> seen_;
+  std::bitset<1024> may_be_noted_; // by the last digits of their numbers
   bool is_center_covered_ = false;
 };
 
