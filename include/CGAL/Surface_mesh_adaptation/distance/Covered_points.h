@@ -68,15 +68,9 @@ public:
   template <class Faces, class Triangles>
   bool are_near(const Faces& faces, const Triangles& triangles, double distance) const
   {
-    Ring<internal::Prepared_triangle> prepared;
-    for (const Triangle_points& t : triangles) prepared.emplace_back(t);
-    std::size_t k = 0;
-    for (const Index f : faces) {
-      std::size_t hint = (std::min)(k++, prepared.size() - 1);
-      for (Index i = lists_.first[f]; i != no_index; i = lists_.next[i])
-        if (!is_near(points_[i], prepared, distance * distance, hint)) return false;
-    }
-    return true;
+    return for_each_point_while(faces, triangles, [&](Index i, const auto& prepared, std::size_t& hint) {
+      return is_near(points_[i], prepared, distance * distance, hint);
+    });
   }
 
   /// For points of faces that are to be replaced: which of the triangles that do so covers them then.
@@ -87,19 +81,12 @@ public:
   template <class Faces, class Triangles>
   bool find_owners(const Faces& faces, const Triangles& triangles, double distance, Owners& owners) const
   {
-    Ring<internal::Prepared_triangle> prepared;
-    for (const Triangle_points& t : triangles) prepared.emplace_back(t);
-    std::size_t k = 0;
-    for (const Index f : faces) {
-      std::size_t hint = (std::min)(k++, prepared.size() - 1);
-      for (Index i = lists_.first[f]; i != no_index; i = lists_.next[i]) {
-        const Nearest nearest = nearest_of(points_[i], prepared, distance * distance, hint);
-        if (nearest.squared_distance > distance * distance) return false;
-        hint = nearest.triangle;
-        owners.emplace_back(i, hint);
-      }
-    }
-    return true;
+    return for_each_point_while(faces, triangles, [&](Index i, const auto& prepared, std::size_t& hint) {
+      const Nearest nearest = nearest_of(points_[i], prepared, distance * distance, hint);
+      hint = nearest.triangle;
+      owners.emplace_back(i, hint);
+      return nearest.squared_distance <= distance * distance;
+    });
   }
 
   /// Hands the points that `faces` cover on to their owners among these, which `find_owners()` has found.
@@ -170,6 +157,22 @@ private:
                                                  (ends + points[mesh.apex(mesh.twin[h])]) / 3));
   }
 
+  /// Calls `use(i, prepared, hint)` for the points `i` that `faces` cover, until it returns `false`; whether it never did.
+  /// `hint` is the place of the triangle to look at first, which `use` may change: at first the k-th for the k-th face.
+  template <class Faces, class Triangles, class Use>
+  bool for_each_point_while(const Faces& faces, const Triangles& triangles, const Use& use) const
+  {
+    Ring<internal::Prepared_triangle> prepared;
+    for (const Triangle_points& t : triangles) prepared.emplace_back(t);
+    std::size_t k = 0;
+    for (const Index f : faces) {
+      std::size_t hint = (std::min)(k++, prepared.size() - 1);
+      for (Index i = lists_.first[f]; i != no_index; i = lists_.next[i])
+        if (!use(i, prepared, hint)) return false;
+    }
+    return true;
+  }
+
   template <class Triangles>
   static bool is_near(const Vector_3& p, const Triangles& triangles, double squared_distance, std::size_t& hint)
   {
@@ -185,10 +188,7 @@ private:
                        const Ring<Index>& faces, double distance)
   {
     Ring<internal::Prepared_triangle> triangles;
-    for (const Index f : faces) {
-      const auto corner = [&](std::size_t k) { return points[mesh.corner[3 * std::size_t(f) + k]]; };
-      triangles.emplace_back(Triangle_points{corner(0), corner(1), corner(2)});
-    }
+    for (const Index f : faces) triangles.emplace_back(internal::corners_from(mesh, points, 3 * f));
     std::size_t hint = 0; // points that follow each other mostly belong to one face
     for (const Index i : moving) {
       hint = nearest_of(points_[i], triangles, distance * distance, hint).triangle;

@@ -194,7 +194,7 @@ private:
   double margin_, largest_height_;
   std::optional<Vector_3> too_far_;
   boost::container::static_vector<std::size_t, most_triangles> seen_;
-  std::bitset<1024> may_be_noted_; // by the last digits of their numbers
+  std::bitset<1024> may_be_noted_; // a bit for each number modulo its size
   bool is_center_covered_ = false;
 };
 
